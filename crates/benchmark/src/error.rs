@@ -9,7 +9,7 @@ use population::PopulationError;
 use robot::RobotError;
 use simulator::SimulatorError;
 
-/// Why a campaign cannot be planned, made or compared, or a figure not drawn.
+/// Why a campaign or a figure cannot be planned, made, compared or drawn.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum BenchmarkError {
@@ -27,7 +27,7 @@ pub enum BenchmarkError {
         /// What the operating system said.
         reason: String,
     },
-    /// A trial has nothing to diagnose.
+    /// A trial has no logs to diagnose.
     #[error("{}: there is no log in it, a trial needs one *.parquet at least", path.display())]
     NoLogs {
         /// The folder.
@@ -48,14 +48,14 @@ pub enum BenchmarkError {
         path.display(), short(found), short(planned)
     )]
     OtherCampaign {
-        /// A shard of it.
+        /// A shard of the other campaign.
         path: PathBuf,
-        /// The campaign that it is of, by its hash.
+        /// Hash of the other campaign.
         found: String,
-        /// The campaign that was to be planned.
+        /// Hash of the campaign that was to be planned.
         planned: String,
     },
-    /// A table of trials is none.
+    /// A table cannot be read as one of trials.
     #[error("{}: {reason}, trials.parquet of a campaign was expected", path.display())]
     UnreadableTrials {
         /// The file.
@@ -71,9 +71,9 @@ pub enum BenchmarkError {
     OtherTrials {
         /// The file.
         path: PathBuf,
-        /// The campaign that they are of, by its hash.
+        /// Hash of the other campaign.
         found: String,
-        /// The campaign that was planned.
+        /// Hash of the campaign that was planned.
         planned: String,
     },
     /// Two results have no trial in common.
@@ -98,7 +98,7 @@ pub enum BenchmarkError {
     },
 }
 
-/// The start of a hash, enough to tell it from others by eye.
+/// The start of a hash, enough for readers to tell it from others.
 fn short(hash: &str) -> &str {
     hash.get(..8).unwrap_or(hash)
 }

@@ -1,4 +1,4 @@
-//! How good a diagnosis is, counted: campaigns of blind trials, baselines, and the paper's figures.
+//! Benchmarks of a diagnosis: campaigns of blind trials, baselines, and the paper's figures.
 //!
 //! ```text
 //! Campaign --plan--> CampaignFolder --work--> shards of Records --> Merged or MergedPanel
@@ -11,7 +11,7 @@
 //!
 //! - `panel` judges one trial of a population by its truth, `trials` plans and makes campaigns;
 //! - `tables` adds trials up, `paired` compares two results of the same trials;
-//! - `baselines` are two plain methods, `statistics` shares and rates with their intervals;
+//! - `baselines` are two simple methods, `statistics` shares and rates with their intervals;
 //! - `paper` measures the figures of Nguyen-Tuong & Peters 2010, `reports` shows all of it.
 
 mod baselines;

@@ -6,14 +6,14 @@ use simulator::LogFormat;
 
 use crate::error::BenchmarkError;
 
-/// Reads every log of a trial's folder, by name, for this robot.
+/// Reads every log of a trial's folder for this robot, in the order of their names.
 pub(crate) fn read_runs(folder: &Path, robot: &Robot) -> Result<Vec<Run>, BenchmarkError> {
     let options = ReadOptions::default();
     let read = |path: &PathBuf| Ok(logs::read_run(path, robot, &options)?);
     log_files(folder)?.iter().map(read).collect()
 }
 
-/// The logs of a folder, by name.
+/// The logs of a folder, in the order of their names.
 fn log_files(folder: &Path) -> Result<Vec<PathBuf>, BenchmarkError> {
     let entries = std::fs::read_dir(folder).map_err(unusable(folder))?.map(|e| e.map(|e| e.path()));
     let mut paths = entries.collect::<Result<Vec<_>, _>>().map_err(unusable(folder))?;

@@ -18,17 +18,19 @@ use crate::search::inputs::Inputs;
 use crate::settings::Settings;
 use crate::signals::log::Log;
 
-/// Changes from one set of logs to another: of one arm before and after an event, early and late in a session, or of two
-/// arms that should be alike.
+/// Changes from one set of logs to another: of one arm before and after an event, early and late in a session, or of
+/// two arms that should be equal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
     /// The diagnosis of the first logs.
     pub before: DiagnosisRun,
-    /// The diagnosis of the other logs about the robot with the findings of the first ones: its findings are the changes.
+    /// The diagnosis of the other logs, about the robot with the findings of the first logs. Its findings are the
+    /// changes.
     pub after: DiagnosisRun,
-    /// Sizes of these findings in the first logs, about that robot, where the columns of an effect are linear.
+    /// Sizes of these findings in the first logs, about the same robot, for effects whose columns are linear.
     pub first: Vec<FirstSize>,
-    /// Findings about that robot that the first logs show to the same size: an error that remains in both, and no change.
+    /// Findings about the same robot that the first logs show with the same size: errors common to both, which are no
+    /// changes.
     pub alike: Vec<Finding>,
 }
 
@@ -48,13 +50,13 @@ pub struct FirstSize {
 /// effort before - extended nominal effort = columns w_before + structure + noise
 /// ```
 ///
-/// with the robot that the first runs extend. An error that no finding explains is in both logs, and a hypothesis may stand
-/// in for it. So a finding is a change only where `w_after` differs from `w_before` by more than their 95 per cent
+/// with the robot that the first runs extend. An error that no finding explains is in both logs, and a hypothesis may
+/// imitate it. So a finding is a change only where `w_after` differs from `w_before` by more than their 95 per cent
 /// intervals, added as squares.
 ///
 /// # Errors
 ///
-/// As [`diagnose`], of either set, and [`DiagnosisError::InBoth`] for a run that is in both.
+/// The errors of [`diagnose`] for either set, and [`DiagnosisError::InBoth`] for a run that is in both.
 pub fn compare(
     robot: &Robot,
     [before, after]: [&[Run]; 2],
@@ -81,7 +83,7 @@ pub fn compare(
     Ok(Comparison { before, after, first, alike })
 }
 
-/// Sizes of some hypotheses in the logs of a diagnosis, about the robot that has its findings.
+/// Sizes of some hypotheses in the logs of a diagnosis, about the robot with its findings.
 fn sizes(
     outcome: &DiagnosisRun,
     hypotheses: &[Hypothesis],
@@ -122,7 +124,7 @@ fn sizes(
     })
 }
 
-/// Whether a parameter differs by more than the two 95 per cent intervals of noise allow.
+/// Whether a parameter differs by more than the two 95 per cent intervals of the noise.
 fn differ(after: &[Estimate], before: &[Estimate]) -> bool {
     let half = |e: &Estimate| 0.5 * (e.noise95[1] - e.noise95[0]);
     after.iter().any(|a| {

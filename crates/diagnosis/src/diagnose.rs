@@ -29,7 +29,7 @@ pub struct DiagnosisRun {
     pub traces: Vec<RunTraces>,
     /// The robot with its findings.
     pub extended: Robot,
-    /// The logs as they were read, where they are corrected first: a turned sign, another unit.
+    /// The logs before correction, where a turned sign or another unit was corrected.
     pub read: Option<Vec<Run>>,
     /// The logs as they were diagnosed.
     pub prepared: Prepared,
@@ -37,8 +37,8 @@ pub struct DiagnosisRun {
     pub held_out: Vec<HeldOutPart>,
 }
 
-/// Finds the errors of the model of `robot` in `runs`, names their causes, and measures how much better the model predicts
-/// with them.
+/// Finds the errors of the model of `robot` in `runs`, names their causes, and measures how much better the model
+/// predicts once they are corrected.
 ///
 /// 1. Logs are low-passed and differentiated; effort, nominal effort and the columns of every effect pass the same filter.
 ///    Where a second encoder shows a link, the position difference of the two encoders is diagnosed first, in the same
@@ -54,8 +54,8 @@ pub struct DiagnosisRun {
 ///
 /// # Errors
 ///
-/// [`DiagnosisError`] for settings, logs or joints that cannot be used. Logs that cannot show an effect are a verdict, no
-/// error.
+/// [`DiagnosisError`] for settings, logs or joints that cannot be used. Logs that cannot show an effect give a
+/// verdict instead.
 pub fn diagnose(
     robot: &Robot,
     runs: &[Run],
@@ -114,7 +114,7 @@ pub fn diagnose(
     Ok(DiagnosisRun { diagnosis, traces, extended, read, prepared, held_out })
 }
 
-/// The answer of a search; `data.runs` and `warnings` of the diagnosis are left for the caller.
+/// The answer of a search; the caller fills `data.runs` and `warnings` of the diagnosis.
 struct Answer {
     diagnosis: Diagnosis,
     traces: Vec<RunTraces>,
@@ -135,7 +135,7 @@ fn answer(inputs: &Inputs, progress: &dyn DiagnosisProgress) -> Result<Answer, D
     })?
 }
 
-/// Whether gear ratios or encoder offsets of two robots differ: the efforts along a motion differ too then.
+/// Whether gear ratios or encoder offsets of two robots differ, so that their efforts along a motion differ too.
 fn differ_in_drives(described: &Robot, about: &Robot) -> bool {
     let links = described.links().iter().zip(about.links());
     let differ = |a: f64, b: f64| a.total_cmp(&b).is_ne();
@@ -152,7 +152,7 @@ fn words_for_ringing(robot: &Robot, (joint, hz): (usize, f64)) -> String {
     )
 }
 
-/// The runs without those that repeat another sample by sample, and a warning for each of these.
+/// The runs without exact copies of another run, and a warning for each copy.
 fn without_repeats<'a>(
     robot: &Robot,
     runs: &'a [Run],

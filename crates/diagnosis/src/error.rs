@@ -20,7 +20,7 @@ pub enum DiagnosisError {
         /// Joints expected.
         expected: usize,
     },
-    /// A run is to be compared with itself.
+    /// A run is compared with itself.
     #[error(
         "{of_run}: it is among the logs before and after, two sets without a run in common were expected", of_run = of_run(run))]
     InBoth {

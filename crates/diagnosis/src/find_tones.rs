@@ -26,7 +26,7 @@ impl ShapedDesign {
     }
 }
 
-/// The search for tones in logs of which the tones are not known yet.
+/// The search for tones in logs whose tones are unknown.
 pub(crate) struct ToneSearch<'a> {
     pub nominal: &'a Robot,
     /// The robot whose efforts are subtracted.
@@ -37,10 +37,10 @@ pub(crate) struct ToneSearch<'a> {
 }
 
 impl ToneSearch<'_> {
-    /// The oscillations of the logs, and the design about a robot that has them.
+    /// The oscillations of the logs, and the design about a robot that includes them.
     ///
-    /// Tones are looked for again with those of the first search taken out: a search without them takes other effects for
-    /// their cause, which hides some of them.
+    /// The search for tones is repeated with the tones of the first search removed. Without them, other effects take
+    /// the place of their cause, which hides some of the tones.
     pub fn find_tones(&self, runs: &[Run]) -> Result<(Oscillations, ShapedDesign), DiagnosisError> {
         let Self { nominal, about, settings, log, inadequate } = *self;
         let mut shaped = ShapedDesign::new(about, &log)?;
@@ -61,7 +61,7 @@ impl ToneSearch<'_> {
     }
 }
 
-/// The oscillations in the efforts that a search leaves, in a band much wider than the motion's.
+/// The oscillations in the residual efforts of a search, in a band much wider than that of the motion.
 fn tones_left_by(inputs: &Inputs, runs: &[Run]) -> Result<Oscillations, DiagnosisError> {
     let (prepared, settings) = (inputs.log.prepared, inputs.settings);
     let t = &settings.thresholds.tones;

@@ -14,7 +14,7 @@ pub struct HowFound {
 ///
 /// # Errors
 ///
-/// The reason why it does not.
+/// The reason why no diagnosis finds the effect.
 pub fn how_found(kind: EffectKind) -> Result<HowFound, &'static str> {
     let parameters = kind.entry().parameters;
     match kind {

@@ -7,7 +7,7 @@
 //! [`diagnose`] decides which hypotheses the logs support, how large the effects are, which other effects would explain
 //! the logs as well, and what remains unexplained.
 //!
-//! A folder is a step, and imports none that comes later. [`Thresholds`] holds every number that decides.
+//! A folder is a step, and imports only from earlier ones. [`Thresholds`] holds every number that decides.
 //!
 //! ```text
 //! signals -> columns -> regression -> search -> outcome

@@ -14,11 +14,11 @@ pub enum Verdict {
     Consistent,
     /// Named effects bring the residual down to the noise floor.
     Explained,
-    /// Named effects, and structure that none of them reproduces.
+    /// Named effects explain a part, and structure without a name remains.
     PartlyExplained,
-    /// Structure, but the logs support no named effect.
+    /// Structure remains, and the logs support no named effect.
     Unexplained,
-    /// The logs cannot show it.
+    /// The logs say too little of the joint.
     DataInadequate,
 }
 
@@ -34,8 +34,8 @@ impl Verdict {
         }
     }
 
-    /// The verdict on logs that were corrected before they were read. Only those who recorded them can confirm the
-    /// correction, so that no joint is closed.
+    /// The verdict on logs that were corrected. Only those who recorded the logs can confirm the correction, so no
+    /// joint is closed.
     pub(crate) fn of_corrected_logs(self) -> Self {
         match self {
             Self::Consistent | Self::Explained => Self::PartlyExplained,
@@ -44,7 +44,7 @@ impl Verdict {
     }
 }
 
-/// The errors of a model in some logs, with their causes.
+/// The errors of a model in some logs, and their causes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Diagnosis {
     /// Always [`SCHEMA`].
@@ -57,13 +57,13 @@ pub struct Diagnosis {
     pub joints: Vec<JointReport>,
     /// Named causes, the largest share first.
     pub findings: Vec<Finding>,
-    /// Causes that the logs show and that do not matter: below the practical size at every joint.
+    /// Causes that the logs show but that are too small to matter: below the practical size at every joint.
     pub negligible: Vec<Negligible>,
-    /// Structure that no named cause reproduces.
+    /// Structure that no named cause explains.
     pub unexplained: Vec<Unexplained>,
     /// Effects that were tested and not found.
     pub ruled_out: Vec<RuledOut>,
-    /// The fall of the prediction error on data that took no part.
+    /// The fall of the prediction error on held-out data.
     pub gain: Gain,
     /// The logs and how they were prepared.
     pub data: DataSummary,
@@ -78,10 +78,10 @@ pub struct JointReport {
     pub name: String,
     /// The verdict for this joint.
     pub verdict: Verdict,
-    /// Why, in a sentence.
+    /// The reason for the verdict, in a sentence.
     pub because: String,
-    /// RMS of the measured effort in the band of the diagnosis (N m or N). This and the next two are of the samples in which
-    /// the joint moves: while it stands for long, dry friction holds it with any part of its level.
+    /// RMS of the measured effort in the band of the diagnosis (N m or N). This and the next two are of samples in
+    /// which the joint moves: in a long stand, dry friction holds it with any part of its level.
     pub torque_rms_nm: f64,
     /// RMS of measured minus nominal effort.
     pub residual_rms_nm: f64,
@@ -91,11 +91,11 @@ pub struct JointReport {
     pub noise_floor_rms_nm: f64,
     /// Where most of the noise comes from.
     pub noise_floor_from: NoiseFloorSource,
-    /// Noise and rest over frequency.
+    /// Noise and residual over frequency.
     pub spectrum: NoiseSpectrum,
     /// Integrated autocorrelation time of the remaining residual (s).
     pub autocorrelation_time_s: f64,
-    /// Number of independent samples to which the logs amount.
+    /// Number of independent samples that the logs are equivalent to.
     pub effective_samples: f64,
     /// Range of motion in the logs (rad or m).
     pub range: f64,
@@ -116,7 +116,7 @@ pub enum NoiseFloorSource {
 }
 
 impl NoiseFloorSource {
-    /// Where the noise comes from, after a number of N m.
+    /// The source of the noise in words, to follow a number of N m.
     pub fn words(self) -> &'static str {
         match self {
             Self::Repeats => "of what differs between runs of one motion",
@@ -127,14 +127,14 @@ impl NoiseFloorSource {
     }
 }
 
-/// What is left of a joint's effort and its noise over frequency, behind the low-pass.
+/// Residual effort of a joint and its noise over frequency, after the low-pass.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct NoiseSpectrum {
     /// Frequencies (Hz).
     pub hz: Vec<f64>,
-    /// One-sided density of the noise with a source ((N m)²/Hz or N²/Hz).
+    /// One-sided density of the noise whose source is known ((N m)²/Hz or N²/Hz).
     pub noise_nm2_per_hz: Vec<f64>,
-    /// The same of what is left of the effort on held-out data.
+    /// One-sided density of the residual effort on held-out data ((N m)²/Hz or N²/Hz).
     pub left_nm2_per_hz: Vec<f64>,
 }
 
@@ -145,15 +145,16 @@ pub struct Estimate {
     pub name: &'static str,
     /// Best value.
     pub value: f64,
-    /// 95 per cent interval, including the uncertainty from effects without a name.
+    /// 95 per cent interval, including the uncertainty from unnamed effects.
     pub ci95: [f64; 2],
-    /// The same of noise alone: for a change between two logs of one arm, which share the effects without a name.
+    /// 95 per cent interval of noise alone. It suits a change between two logs of one arm, which have the same
+    /// unnamed effects.
     pub noise95: [f64; 2],
     /// Value in the nominal model.
     pub nominal: f64,
     /// Unit.
     pub unit: &'static str,
-    /// Whether the logs narrow it down; if not, the value is the prior's.
+    /// Whether the logs determine the value; if not, it is that of the prior.
     pub determined: bool,
 }
 
@@ -196,26 +197,26 @@ pub struct Finding {
     pub at: EffectAt,
     /// Its parameters.
     pub parameters: Vec<Estimate>,
-    /// Share of the nominal residual's power that goes with it, over the joints it acts on.
+    /// Share of the nominal residual's power that the finding explains, over the joints it acts on.
     pub share_explained: f64,
-    /// Logarithm of how much more likely the logs are with it than without it.
+    /// Log Bayes factor (nats) of the model with the finding against the model without it.
     pub log_evidence: f64,
-    /// Relative fall of the held-out residual's power when it is added to the other findings.
+    /// Relative fall of the held-out residual's power when the finding is added to the others.
     pub held_out_gain: f64,
-    /// Effects that explain the held-out data as well in its place.
+    /// Effects that explain the held-out data as well in place of the finding.
     pub not_separable_from: Vec<EffectAt>,
     /// The motion that would separate them, if there are rivals.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub told_apart_by: Option<&'static str>,
-    /// Evidence for it, in sentences.
+    /// Evidence for the finding, in sentences.
     pub evidence: Vec<String>,
     /// Combinations of its parameters that the logs leave open, in words.
     pub undetermined: Vec<String>,
 }
 
 impl Finding {
-    /// Its rivals in words: other causes, and forms of the same dry friction that differ only where the logs have no motion,
-    /// such as `FR04 Stribeck friction near rest`.
+    /// The rivals in words, in two lists: other causes, and forms of the same dry friction that differ only where the
+    /// logs have no motion, such as `FR04 Stribeck friction near rest`.
     pub fn rivals(&self) -> (Vec<String>, Vec<String>) {
         let shows = |r: &EffectAt| {
             let (of, shows) = effects::model(r.effect).ok()?.traits().form_of()?;
@@ -240,15 +241,15 @@ impl Finding {
         )
     }
 
-    /// Whether a rival explains as much only together with another one, as Coulomb friction with an offset explains as much as
-    /// asymmetric friction.
+    /// Whether a rival explains as much only in combination with another: Coulomb friction with an offset explains as
+    /// much as asymmetric friction.
     fn is_part_of(&self, rival: &EffectAt) -> bool {
         let parts = effects::model(self.at.effect).map_or(&[] as &[_], |m| m.traits().together());
         parts.contains(&rival.effect) && rival.joint == self.at.joint
     }
 }
 
-/// A cause that the logs show and that is too small to be a finding.
+/// A cause that the logs show but that is too small to be a finding.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Negligible {
     /// The effect and its place.
@@ -258,7 +259,7 @@ pub struct Negligible {
     pub most_at: String,
     /// Root of the fall of the held-out mean square there (N m or N).
     pub rms_nm: f64,
-    /// The value below which that does not matter there (N m or N).
+    /// The value below which that fall does not matter there (N m or N).
     pub least_nm: f64,
 }
 
@@ -267,18 +268,18 @@ pub struct Negligible {
 pub struct Unexplained {
     /// Name of the joint.
     pub joint: String,
-    /// Share of the nominal residual's power that is structure without a name.
+    /// Share of the nominal residual's power that is unnamed structure.
     pub share: f64,
-    /// The signals that it follows, the strongest first.
+    /// The signals that the structure follows, the strongest first.
     pub depends_on: Vec<Dependence>,
 }
 
-/// How much of a remaining residual follows one signal.
+/// How much of a residual follows one signal.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Dependence {
     /// The signal, such as `position of elbow`.
     pub signal: String,
-    /// Share of the remaining residual's power that it predicts on held-out data.
+    /// Share of the residual's power that the signal predicts on held-out data.
     pub share: f64,
 }
 
@@ -290,23 +291,23 @@ pub struct RuledOut {
     pub at: EffectAt,
     /// The parameter that `smallest_detectable` speaks of.
     pub parameter: &'static str,
-    /// The smallest size that would have been found; of a stiffness the largest, of a breakaway level its excess over the
-    /// Coulomb level. `None` when these logs cannot show any.
+    /// The smallest size that the logs would have shown. For a stiffness it is the largest value, for a breakaway
+    /// level the excess over the Coulomb level. `None` when these logs cannot show any size.
     pub smallest_detectable: Option<f64>,
     /// Its unit.
     pub unit: &'static str,
-    /// Why it is not a finding.
+    /// Why the effect is not a finding.
     pub because: String,
 }
 
 /// How much better the extended model predicts.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Gain {
-    /// In predicting torque.
+    /// Gain in predicting torque.
     pub inverse: InverseGain,
 }
 
-/// Torque prediction on data that took no part in selection or fit, per joint.
+/// Torque prediction on data that neither selection nor fit has seen, per joint.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct InverseGain {
     /// Mean squared error over the variance of the effort, nominal model.
@@ -319,7 +320,7 @@ pub struct InverseGain {
     pub rms_after_nm: Vec<f64>,
     /// Which runs or blocks were held out.
     pub held_out: String,
-    /// The same figures fold by fold.
+    /// The same values fold by fold.
     pub folds: Vec<FoldGain>,
 }
 
@@ -341,7 +342,7 @@ pub struct FoldGain {
 pub struct DataSummary {
     /// One entry a run.
     pub runs: Vec<RunSummary>,
-    /// Whether the logs were corrected before they were read; a warning says how.
+    /// Whether the logs were corrected first; a warning says how.
     pub put_right: bool,
     /// Cut-off of the low-pass filter (Hz).
     pub cutoff_hz: f64,

@@ -8,13 +8,13 @@ use crate::thresholds::Thresholds;
 pub struct Settings {
     /// Cut-off of the low-pass filter (Hz); chosen from the data when none is given.
     pub cutoff_hz: Option<f64>,
-    /// Rate at which commanded efforts are renewed (Hz); the log's own where none is given.
+    /// Rate at which commanded efforts are updated (Hz); the rate of the log if `None`.
     pub control_rate_hz: Option<f64>,
     /// Least held-out fall of a joint's RMS error that counts, as a share of its effort RMS.
     pub practical_share: f64,
-    /// Share of a joint's effort RMS below which a remaining error beyond the noise does not leave the joint open.
+    /// Share of a joint's effort RMS below which a residual beyond the noise does not leave the joint open.
     pub open_share: f64,
-    /// Effects that are not looked for: they are neither findings nor rivals of findings.
+    /// Effects that are not looked for, neither as findings nor as rivals.
     pub without: Vec<EffectKind>,
     /// Every other number that decides.
     pub thresholds: Thresholds,

@@ -1,4 +1,4 @@
-//! Every number that decides an answer, a field a meaning, with its unit, its reason and the figure that it rests on.
+//! Every number that decides an answer: one field a meaning, with unit, reason and the figure that it rests on.
 
 pub(crate) mod blocks;
 pub(crate) mod limits;
@@ -23,19 +23,19 @@ use crate::thresholds::verdict::VerdictThresholds;
 
 /// The numbers that decide an answer, grouped by the step that they belong to.
 ///
-/// "Trials" in the documentation of a field are stored trials of the panel (`scenarios/campaigns/panel.toml`), the same logs
-/// with and without the change. Fields that have the same value have it for reasons of their own.
+/// "Trials" in the documentation of a field are stored trials of the panel (`scenarios/campaigns/panel.toml`): the
+/// same logs with and without the change. Where fields have equal values, each has its own reason.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Thresholds {
-    /// What is assumed of the size of every effect before any log.
+    /// Prior sizes of every effect.
     pub priors: Priors,
     /// What is wrong with logs as a whole.
     pub inspection: InspectionThresholds,
-    /// What logs can be asked for.
+    /// What the logs must have to be used.
     pub readiness: ReadinessThresholds,
-    /// Which samples speak of a joint, and which runs repeat a motion.
+    /// Which samples are informative about a joint, and which runs repeat a motion.
     pub signals: SignalThresholds,
-    /// How logs are cut into blocks, and these into parts that are held out.
+    /// How logs are cut into blocks, and blocks into folds.
     pub blocks: BlockThresholds,
     /// Lines of the spectrum.
     pub tones: ToneThresholds,
@@ -45,6 +45,6 @@ pub struct Thresholds {
     pub search: SearchThresholds,
     /// How well a size is known.
     pub sizes: SizeThresholds,
-    /// What is left at a joint, and what it means.
+    /// What the residual of a joint means.
     pub verdict: VerdictThresholds,
 }

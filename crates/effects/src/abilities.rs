@@ -1,5 +1,5 @@
-//! What some effects have beyond an [`Effect`](crate::effect::Effect): one trait an ability. `P` is the kind of
-//! place of the effect.
+//! Abilities of some effects beyond an [`Effect`](crate::effect::Effect), one trait each. `P` is the kind of place of
+//! the effect.
 
 use robot::{Actuator, Robot};
 
@@ -10,7 +10,7 @@ use crate::motion::scale::Scale;
 use crate::place::AtJoint;
 use crate::priors::Priors;
 
-/// Its columns are not linear in one of its parameters, the shape, of which some trial values are compared.
+/// Its columns are not linear in one parameter, the shape. Some trial values of the shape are compared.
 pub trait HasShape {
     /// Trial values for the drive of a joint; empty where the drive has a value already.
     fn shapes(&self, at: AtJoint, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64>;
@@ -18,13 +18,13 @@ pub trait HasShape {
     /// Gives the drive of `joint` the effect with one of its `shapes` and no size.
     fn set_shape(&self, joint: usize, drive: &mut Actuator, shape: f64);
 
-    /// Takes the shape back to that of the drive `before`, where the effect has stayed without size.
+    /// Resets the shape to that of the drive `before`, where the effect has kept size zero.
     fn drop_unused_shape(&self, drive: &mut Actuator, before: &Actuator);
 }
 
-/// It lies between the first encoder of a joint and the link, where a second encoder shows it.
+/// It lies between the first encoder of a joint and the link, so that a second encoder at the link shows it.
 pub trait BetweenEncoders {
-    /// What one unit of each weight adds to the position that the first encoder reports beyond that of the link
+    /// Change of the position that the first encoder reports, relative to that of the link, per unit of each weight
     /// (rad or m).
     fn twist(&self, at: AtJoint, motion: &RunMotion) -> Vec<EffectColumn>;
 }
@@ -37,7 +37,7 @@ pub trait HasCadError<P> {
 
 /// Few arms have it.
 pub trait IsRare<P> {
-    /// Log odds (nats) against an arm that has the effect there, beyond those against any effect.
+    /// Log odds (nats) against the effect at this place, in addition to those against any effect.
     fn prior_log_odds_against(&self, at: P, robot: &Robot, priors: &Priors) -> f64;
 }
 
@@ -47,16 +47,16 @@ pub trait IsRestricted<P> {
     fn admissible(&self, at: P, robot: &Robot, weights: &[f64], priors: &Priors) -> bool;
 }
 
-/// Whether it is possible shows in the extended robot only.
+/// Only the extended robot shows whether it is possible.
 pub trait CanBeUnsound<P> {
-    /// Whether the effect is possible in the robot that has it, with all other effects included.
+    /// Whether the effect is possible in the robot that has it together with all other effects.
     fn is_sound(&self, at: P, extended: &Robot, priors: &Priors) -> bool;
 }
 
 /// A simpler effect of the same place is a special case of it.
 pub trait HasPlainer<P> {
-    /// Indices of the weights that, at zero, reduce it to a simpler effect, each with its value in the second of
-    /// the `robots`, nominal and extended.
+    /// Indices of the weights that reduce it to a simpler effect at zero, each with its value in the second of the
+    /// `robots`, nominal and extended.
     fn more_than_plain(
         &self,
         at: P,
@@ -66,9 +66,9 @@ pub trait HasPlainer<P> {
     ) -> Vec<(usize, f64)>;
 }
 
-/// Logs may show it in one shape and hide it in another.
+/// Logs may show one shape of it and hide another.
 pub trait CanHide<P> {
-    /// How many times larger than in `robot` the effect has to be for logs of `frame` to show it, in the shape in
-    /// which they show it least.
+    /// Factor by which the effect must be larger than in `robot` for logs of `frame` to show it, in the shape that
+    /// they show least.
     fn largest_unseen(&self, at: P, robot: &Robot, frame: &Frame, priors: &Priors) -> f64;
 }

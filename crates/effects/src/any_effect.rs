@@ -14,8 +14,8 @@ use crate::traits::Traits;
 
 /// An [`Effect`] of any kind of place, as [`model`](crate::model) gives it.
 ///
-/// This is the only file in which a [`Place`] becomes that of an effect. At a place of another kind an effect has no
-/// columns and changes no robot.
+/// Only this file turns a [`Place`] into the place of an effect. At a place of another kind an effect has no columns
+/// and changes no robot.
 pub trait AnyEffect: Sync {
     /// See [`Effect::kind`].
     fn kind(&self) -> EffectKind;
@@ -45,7 +45,7 @@ pub trait AnyEffect: Sync {
     /// See [`Effect::columns`].
     fn columns(&self, place: Place, motion: &RunMotion) -> Vec<EffectColumn>;
 
-    /// See [`BetweenEncoders`](crate::BetweenEncoders); no columns of an effect that is elsewhere.
+    /// See [`BetweenEncoders`](crate::BetweenEncoders); no columns for an effect that lies elsewhere.
     fn twist(&self, place: Place, motion: &RunMotion) -> Vec<EffectColumn>;
 
     /// See [`Effect::prior`].
@@ -54,7 +54,7 @@ pub trait AnyEffect: Sync {
     /// See [`HasCadError`](crate::HasCadError).
     fn cad_error_sd(&self, place: Place, robot: &Robot, priors: &Priors) -> Option<Vec<f64>>;
 
-    /// See [`IsRare`](crate::IsRare); 0 of an effect that is not.
+    /// See [`IsRare`](crate::IsRare); 0 for an effect that is common.
     fn prior_log_odds_against(&self, place: Place, robot: &Robot, priors: &Priors) -> f64;
 
     /// See [`Effect::bounds`].
@@ -66,7 +66,7 @@ pub trait AnyEffect: Sync {
     /// See [`CanBeUnsound`](crate::CanBeUnsound).
     fn is_sound(&self, place: Place, extended: &Robot, priors: &Priors) -> bool;
 
-    /// See [`HasPlainer`](crate::HasPlainer); empty where the effect is nothing more than its size.
+    /// See [`HasPlainer`](crate::HasPlainer); empty for an effect without a simpler special case.
     fn more_than_plain(
         &self,
         place: Place,
@@ -75,7 +75,7 @@ pub trait AnyEffect: Sync {
         priors: &Priors,
     ) -> Vec<(usize, f64)>;
 
-    /// See [`CanHide`](crate::CanHide); 1 of an effect that cannot.
+    /// See [`CanHide`](crate::CanHide); 1 for an effect that cannot hide.
     fn largest_unseen(&self, place: Place, robot: &Robot, frame: &Frame, priors: &Priors) -> f64;
 
     /// See [`Effect::extend`].

@@ -13,18 +13,18 @@ use crate::priors::Priors;
 use crate::quantity::EffectQuantity;
 use crate::traits::Traits;
 
-/// What is asked of a motor against dry friction, whatever its law.
+/// How dry friction is compensated, for any of its laws.
 pub(crate) const EASED_LEVEL: &str =
     "its level in the direction of the motor, eased through rest: tanh(qd / rest speed)";
 
-/// What is asked of the motors against changes of the bodies.
+/// How changes of the bodies are compensated.
 pub(crate) const INVERSE_DYNAMICS: &str = "inverse dynamics of the robot that has it";
 
 /// The model side of one effect.
 ///
-/// Weights are changes from the nominal robot: all zero means the robot as described. Every method without a body
-/// is a question that each effect answers in its own file. The last eight are abilities that few effects have: an
-/// effect with one returns itself there.
+/// Weights are changes from the nominal robot: all zero means the robot as described. Each effect implements the
+/// methods without a body in its own file. The last eight methods are abilities that few effects have; an effect with
+/// such an ability returns itself there.
 pub trait Effect: Sync {
     /// Where it acts: at a joint, in a link or at the base.
     type At: TypedPlace;
@@ -32,32 +32,32 @@ pub trait Effect: Sync {
     /// The effect.
     fn kind(&self) -> EffectKind;
 
-    /// What is known of it before any log.
+    /// What is known of the effect before any log.
     fn traits(&self) -> Traits;
 
-    /// How [`Compensation`](crate::Compensation) undoes it.
+    /// How [`Compensation`](crate::Compensation) compensates the effect.
     ///
     /// # Errors
     ///
     /// The reason why the effect cannot be compensated.
     fn remedy(&self) -> Result<&'static str, &'static str>;
 
-    /// Key of `robot.toml` that describes it in `drive`, where a torque of one state alone leaves it out: where it
-    /// needs the past, the motion of the other side of a transmission, or other times.
+    /// Key of `robot.toml` that describes the effect in `drive`, where a torque of one state alone leaves it out.
+    /// Such an effect needs the past, the motion of the other side of a transmission, or other times.
     fn omission(&self, drive: &Actuator) -> Option<&'static str>;
 
-    /// Those of its parameters that it finds.
+    /// The parameters of the effect that a diagnosis finds.
     fn parameters(&self) -> &'static [Parameter] {
         self.kind().entry().parameters
     }
 
-    /// Where it could act in this robot.
+    /// Places where the effect could act in this robot.
     fn places(&self, robot: &Robot) -> Vec<Self::At>;
 
     /// One column a weight, for the motion of one run.
     fn columns(&self, at: Self::At, motion: &RunMotion) -> Vec<EffectColumn>;
 
-    /// Standard deviation of each weight before any data is seen.
+    /// Prior standard deviation of each weight.
     fn prior(&self, at: Self::At, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64>;
 
     /// Lowest and highest physically possible value of each weight.
@@ -73,7 +73,7 @@ pub trait Effect: Sync {
         priors: &Priors,
     );
 
-    /// The parameters that a user reads, from the robot before and after.
+    /// The parameters as the user reads them, from the robot before and after.
     fn quantities(&self, at: Self::At, nominal: &Robot, extended: &Robot) -> Vec<EffectQuantity>;
 
     /// See [`HasShape`].

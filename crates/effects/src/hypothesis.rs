@@ -51,7 +51,7 @@ impl Hypothesis {
         self.model().map(|m| m.twist(self.place, motion)).unwrap_or_default()
     }
 
-    /// See [`AnyEffect::traits`]; none of an effect without a model.
+    /// See [`AnyEffect::traits`]; `None` for an effect without a model.
     pub fn traits(self) -> Option<Traits> {
         self.model().map(|m| m.traits())
     }
@@ -61,7 +61,7 @@ impl Hypothesis {
         self.traits().is_some_and(|n| n.linearity != Linearity::Exact)
     }
 
-    /// Whether something else may pass for it ([`Traits::imitable`]).
+    /// Whether another error may imitate it ([`Traits::imitable`]).
     pub fn is_imitable(self) -> bool {
         self.traits().is_some_and(|n| n.imitable)
     }
@@ -132,8 +132,8 @@ impl Hypothesis {
         self.model().map(|m| m.quantities(self.place, nominal, extended)).unwrap_or_default()
     }
 
-    /// Whether `self` and `other` change the same numbers, so that one model cannot hold both. Asymmetric friction, for
-    /// example, is Coulomb friction with an offset.
+    /// Whether `self` and `other` change the same numbers, so that one model cannot have both: asymmetric friction,
+    /// for example, includes Coulomb friction and an offset.
     pub fn excludes(self, other: Self) -> bool {
         let holds = |a: Self, b: Self| {
             let is_b = |r: &Relation| match r {
@@ -163,7 +163,7 @@ impl Hypothesis {
         kinds.iter().map(|&kind| Self { kind, place: self.place }).collect()
     }
 
-    /// Simpler effects that are named instead of this one, which reaches `joints`, where they explain the same.
+    /// Simpler effects that are named instead of this one, which reaches `joints`, where they explain as much.
     pub fn plainer(self, joints: &[usize]) -> Vec<Self> {
         let at = |&kind: &EffectKind, place| Self { kind, place };
         let of = |relation: &Relation| match relation {

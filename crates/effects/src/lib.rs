@@ -5,10 +5,10 @@
 //! effort - nominal effort = sum over hypotheses of columns(motion) weights + noise
 //! ```
 //!
-//! The README of this crate says how an effect is added. `causes` has one file an effect, under the name that the
-//! effect has in `catalogue` (delay and lag are `late_torque`). [`model`] finds it, or says what an effect without one
-//! would need. [`Compensation`] gives the feedforward efforts that undo the effects of a robot's description, and
-//! [`remedy`] says which effects these are.
+//! The README of this crate says how an effect is added. `causes` has one file an effect, with the name of the effect
+//! in `catalogue` (delay and lag are in `late_torque`). [`model`] returns the model of an effect, or the reason why
+//! it has none. [`Compensation`] computes the feedforward efforts that compensate the effects of a robot's
+//! description, and [`remedy`] says how each is compensated.
 
 mod abilities;
 mod any_effect;

@@ -62,12 +62,12 @@ pub const MODELLED: [EffectKind; 24] = [
 ///
 /// # Errors
 ///
-/// The reason that a model of columns `f(q, qd, qdd)` and constant weights cannot hold the effect.
+/// The reason why columns `f(q, qd, qdd)` with constant weights cannot model the effect.
 pub fn model(kind: EffectKind) -> Result<&'static dyn AnyEffect, &'static str> {
     find(kind).map_err(|effect| effect.reason)
 }
 
-/// How [`Compensation`](crate::Compensation) undoes an effect of the robot's description.
+/// How [`Compensation`](crate::Compensation) compensates an effect of the robot's description.
 ///
 /// # Errors
 ///

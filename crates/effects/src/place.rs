@@ -11,12 +11,12 @@ pub enum Place {
     Base,
 }
 
-/// A place of one kind, which is all that an effect of that kind of place has to deal with.
+/// A place of one kind, for effects that act at this kind of place only.
 pub trait TypedPlace: Copy {
-    /// `place`, where it is of this kind.
+    /// `place` as this kind, or `None` if it is of another kind.
     fn of(place: Place) -> Option<Self>;
 
-    /// It, as one of any kind.
+    /// The place as a [`Place`].
     fn place(self) -> Place;
 }
 

@@ -1,4 +1,4 @@
-/// What is believed of effects before any log, and the limits within which one is believed at all.
+/// Prior sizes of effects, and the limits beyond which a size is not accepted.
 ///
 /// Lengths of a joint are rad where it turns and m where it slides.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
-/// A parameter of an effect as the user knows it.
+/// A parameter of an effect as the user reads it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EffectQuantity {
     /// Name, as in the catalogue.

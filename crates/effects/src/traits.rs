@@ -5,12 +5,12 @@ use catalogue::EffectKind;
 pub enum Linearity {
     /// They are the same for every size of the effect.
     Exact,
-    /// They hold for a small change: with this or another effect in the robot they differ.
+    /// They hold for a small change only, and depend on the effects that the robot already has.
     Tangent,
 }
 
-/// Whether something else may pass for an effect: its columns are made of the model's own torque, which is wrong
-/// wherever something else is, or have a shape that was chosen among many.
+/// Whether another error may imitate an effect. Its columns are made of the model's own torque, which any other error
+/// changes, or have a shape that was chosen among many.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Imitable {
     Yes,
@@ -42,7 +42,7 @@ pub enum Weights {
     Direct,
     /// A weight is the change of the reciprocal of that parameter.
     Reciprocal,
-    /// The size that the logs would show is reported as this parameter.
+    /// The size that the logs would show is reported as the parameter with this index.
     SeenBy(usize),
     /// The first two weights are one size in two phases.
     Phases,
@@ -60,7 +60,7 @@ pub enum RevealedBy {
 /// How an effect is related to another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Relation {
-    /// It makes the size of that effect at the same joint vary, which shows there.
+    /// It makes the size of that effect at the same joint vary, and shows under this condition.
     FormOf(EffectKind, RevealedBy),
     /// It is the sum of these effects at the same place.
     Together(&'static [EffectKind]),
@@ -83,7 +83,7 @@ pub enum Relation {
 pub struct Traits {
     /// How its columns depend on the robot.
     pub linearity: Linearity,
-    /// Whether an error elsewhere, or one of many trial shapes, may pass for it.
+    /// Whether an error elsewhere, or one of many trial shapes, may imitate it.
     pub imitable: bool,
     /// How far its law holds.
     pub law: Law,

@@ -38,8 +38,8 @@ fn effects_with_shape() -> impl Iterator<Item = (EffectKind, &'static dyn HasSha
     MODELLED.into_iter().filter_map(|kind| Some((kind, model(kind).ok()?.shape()?)))
 }
 
-/// `robot` with the shapes of `nominal` wherever an effect stayed without size. A drive loses at most the friction that
-/// it has by warming up.
+/// `robot` with the shapes of `nominal` wherever an effect has kept size zero. The friction that a drive loses by
+/// warming up is limited to the friction that it has.
 pub fn without_unused_shapes(mut robot: Robot, nominal: &Robot) -> Robot {
     for (j, link) in nominal.links().iter().enumerate() {
         let Some(changed) = robot.link_mut(j) else { continue };
@@ -51,7 +51,7 @@ pub fn without_unused_shapes(mut robot: Robot, nominal: &Robot) -> Robot {
 }
 
 impl TrialShape {
-    /// Gives the robot the effect with this shape and no size, which leaves its efforts as they are.
+    /// Gives the robot the effect with this shape and size zero, which does not change its efforts.
     pub fn set_shape(self, robot: &mut Robot) {
         let Some((AtJoint(j), effect)) = self.effect() else { return };
         if let Some(link) = robot.link_mut(j) {

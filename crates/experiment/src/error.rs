@@ -13,7 +13,7 @@ use tracking::TrackingError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExperimentError {
-    /// The scenario cannot be meant.
+    /// A scenario has a value that cannot be used.
     #[error(transparent)]
     Document(#[from] DocumentError),
     /// The robot cannot be used.
@@ -37,29 +37,29 @@ pub enum ExperimentError {
     /// The recording cannot be written.
     #[error(transparent)]
     Recording(#[from] RecordingError),
-    /// The thread that writes a run has died.
+    /// The thread that writes a run has ended early.
     #[error("{}: the thread that wrote it died, what it had written is there", path.display())]
     WriterDied {
         /// The recording.
         path: PathBuf,
     },
-    /// A model is to be learned and there is nothing to learn from.
+    /// A model is to be learned without any data.
     #[error("{}: the scenario feeds {model} forward, but learn.train names no run to learn it from", path.display())]
     NothingToLearnFrom {
-        /// The scenario of the plant, whose runs there are.
+        /// The scenario of the plant, which has the runs.
         path: PathBuf,
         /// The model.
         model: ModelKind,
     },
-    /// A folder of models lacks one.
+    /// A folder lacks a model.
     #[error("{}: there is no such file, the scenario feeds {model} forward", path.display())]
     NoModel {
-        /// Where it was looked for.
+        /// The file that was expected.
         path: PathBuf,
         /// The model.
         model: ModelKind,
     },
-    /// A trial cannot be scored.
+    /// The truth about a trial cannot be read.
     #[error("{}: it does not tell what was put in: {reason}", path.display())]
     UnreadableTruth {
         /// The file.
@@ -67,13 +67,13 @@ pub enum ExperimentError {
         /// What the operating system or the decoder said.
         reason: String,
     },
-    /// A robot has no gains to be tracked with.
+    /// A robot has no gains for tracking.
     #[error("{}: it has no set of gains, one [gains.NAME] at least was expected: the motion is tracked with the softest", path.display())]
     NoGains {
         /// The robot's file.
         path: PathBuf,
     },
-    /// A stage of a run can be neither kept nor made.
+    /// A stage of a run can be neither read nor written.
     #[error("{}: {reason}, a file of a run was expected that can be read and written", path.display())]
     Stage {
         /// The file.

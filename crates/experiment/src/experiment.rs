@@ -21,7 +21,7 @@ use crate::torque::torque_error::torque_errors;
 use crate::tracking::track::track_all;
 use crate::tracking::tracked_error::TrackedError;
 
-/// An arm whose effects are found in some of its runs, and what finding them gains on the others.
+/// An arm whose effects are found in some of its runs, and the gain of finding them on the others.
 ///
 /// ```text
 /// learn.train, learn.regression --diagnose, learn--> extended robot, models
@@ -32,7 +32,7 @@ use crate::tracking::tracked_error::TrackedError;
 pub struct Experiment {
     scenario: TrackingScenario,
     resolved: String,
-    /// Whether the gains are to be the softest that hold the arm.
+    /// Whether to choose the softest gains that hold the arm.
     chooses_gains: bool,
 }
 
@@ -44,15 +44,14 @@ const COMPARED: [FeedforwardKind; 2] =
 const PLANT: &str = "logs/scenario.toml";
 
 impl Experiment {
-    /// Reads a tracking scenario or, with usual values for all the rest, the scenario of an arm:
-    /// its last run is the one that nothing is learned from, whose motion is tracked with the
-    /// softest gains of `robot.toml` that hold the arm. `seed` takes the place of that of the arm's
-    /// scenario.
+    /// Reads a tracking scenario, or the scenario of an arm with usual values for all the rest. In the latter case
+    /// nothing is learned from the last run; its motion is tracked with the softest gains of `robot.toml` that hold
+    /// the arm. `seed` replaces the seed of the arm's scenario.
     ///
     /// # Errors
     ///
-    /// [`ExperimentError::Document`], at the value at fault, what the arm's scenario is refused
-    /// for, and [`ExperimentError::NoGains`].
+    /// [`ExperimentError::Document`], at the value at fault, the errors of the arm's scenario, and
+    /// [`ExperimentError::NoGains`].
     pub fn from_document(document: &Document, seed: Option<u64>) -> Result<Self, ExperimentError> {
         if document.parse::<Kind>()?.plant.is_none() {
             return Self::of_arm(&with_seed(document.clone(), seed)?);
@@ -111,12 +110,12 @@ impl Experiment {
         Ok(Self { scenario, resolved, chooses_gains: true })
     }
 
-    /// The arm, what is learned of it and how it is tracked.
+    /// The scenario: the arm, the data for learning and the tracking.
     pub fn scenario(&self) -> &TrackingScenario {
         &self.scenario
     }
 
-    /// The same with the hidden effects of the arm drawn, once for logs and tracking.
+    /// The scenario with the hidden effects of the arm drawn, once for logs and tracking.
     ///
     /// # Errors
     ///
@@ -125,8 +124,8 @@ impl Experiment {
         Ok(self.scenario.of_arm(simulator::draw_hidden_effects(self.plant())?))
     }
 
-    /// `drawn`, the scenario with the effects of its arm, as it is to be tracked: where no scenario
-    /// says with which gains, with the softest that hold the extended robot too.
+    /// The scenario `drawn`, which has the effects of its arm, with its gains for tracking. Where no scenario states
+    /// gains, they are the softest that hold the extended robot too.
     pub fn with_softest_gains(
         &self,
         drawn: &TrackingScenario,
@@ -149,18 +148,18 @@ impl Experiment {
         self.scenario.plant()
     }
 
-    /// The runs that causes are found in and models learned from.
+    /// The runs in which causes are found and from which models are learned.
     pub fn learning_runs(&self) -> impl Iterator<Item = &str> {
         self.names().filter(|name| self.is_learned(name))
     }
 
-    /// The runs that what is found is tested on.
+    /// The runs on which the findings are tested.
     pub fn test(&self) -> impl Iterator<Item = &str> {
         self.names().filter(|name| !self.is_learned(name))
     }
 
-    /// What `extended`, found in the runs that are learned from, gains on the others, at a joint or
-    /// over all of them; `drawn` is the scenario with the effects of its arm.
+    /// The gains of `extended`, which was found in the runs for learning, on the other runs: at one joint or over
+    /// all. `drawn` is the scenario with the effects of its arm.
     ///
     /// # Errors
     ///
@@ -196,7 +195,7 @@ impl Experiment {
     }
 }
 
-/// A tracking scenario that feeds forward [`COMPARED`] before what else it does.
+/// A tracking scenario that feeds forward [`COMPARED`] first.
 fn add_compared_models(document: &Document) -> Result<Document, ExperimentError> {
     let spec: TrackingSpec = document.parse()?;
     let others = spec.feedforward.iter().filter(|kind| !COMPARED.contains(kind));
@@ -212,17 +211,17 @@ fn add_compared_models(document: &Document) -> Result<Document, ExperimentError>
     Ok(document)
 }
 
-/// What tells a tracking scenario from the scenario of an arm.
+/// The key that tells a tracking scenario from the scenario of an arm.
 #[derive(Deserialize)]
 struct Kind {
     plant: Option<IgnoredAny>,
 }
 
-/// The document with this seed, if there is one, in place of its own.
+/// The document with its seed replaced by `seed`, if there is one.
 ///
 /// # Errors
 ///
-/// [`ExperimentError::Document`] when the document cannot take it.
+/// [`ExperimentError::Document`] when the document cannot take the seed.
 pub fn with_seed(mut document: Document, seed: Option<u64>) -> Result<Document, ExperimentError> {
     if let Some(seed) = seed {
         document.set(&format!("seed={seed}"))?;
@@ -230,7 +229,7 @@ pub fn with_seed(mut document: Document, seed: Option<u64>) -> Result<Document, 
     Ok(document)
 }
 
-/// A set of gains of the robot, until it is known which ones hold it.
+/// Any set of gains of the robot, until the set that holds the arm is known.
 fn some_set(loaded: &Loaded, file: &Path) -> Result<String, ExperimentError> {
     let name = loaded.control.gain_sets.keys().next().cloned();
     name.ok_or_else(|| ExperimentError::NoGains { path: file.to_owned() })

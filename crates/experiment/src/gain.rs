@@ -7,35 +7,34 @@ use crate::tracking::tracked_error::TrackedError;
 /// Names of the robot as described and of the extended one among models.
 const COMPARED: [&str; 2] = ["cad", "named"];
 
-/// The error of the robot as described beside that of the extended one.
+/// The error of the robot as described, and that of the extended robot.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PredictionGain {
-    /// As described.
+    /// Error of the robot as described.
     pub before: f64,
-    /// Extended.
+    /// Error of the extended robot.
     pub after: f64,
 }
 
-/// What finding the effects of an arm gains on a run that took no part in it, at one joint or over
-/// all; none where an error could not be measured.
+/// The gain of finding the effects of an arm, on a run that was held out, at one joint or over all; `None` where an
+/// error could not be measured.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Gains {
     /// RMS error of the torque (N m or N).
     pub torque: Option<PredictionGain>,
-    /// RMS drift of the simulation in [`Gains::WINDOW_S`] (rad or m).
+    /// RMS drift of the simulation after [`Gains::WINDOW_S`] (rad or m).
     pub drift: Option<PredictionGain>,
     /// RMS error of the tracking (rad or m).
     pub tracking: Option<PredictionGain>,
 }
 
 impl PredictionGain {
-    /// How many times less the error is.
+    /// Error before over error after.
     pub fn times(&self) -> f64 {
         self.before / self.after
     }
 
-    /// Root of the sum over the joints of the squared RMS errors of the torque (N m), which joints
-    /// that slide add theirs to in N.
+    /// Root of the sum over the joints of the squared RMS torque errors (N m). Prismatic joints add theirs in N.
     pub fn of_torque(errors: &[TorqueError]) -> Option<Self> {
         Self::of(|name| {
             let model = errors.iter().find(|model| model.model == name)?;
@@ -73,8 +72,7 @@ impl Gains {
     /// Length of time for which the simulation is rolled forward (s).
     pub const WINDOW_S: f64 = 0.2;
 
-    /// What the errors of an experiment come to over all joints; where the arm ends and how it
-    /// tracks by the origin of its last link.
+    /// The gains over all joints. Drift and tracking are those of the origin of the last link.
     pub fn of_all(torque: &[TorqueError], forward: &ForwardGap, tracking: &[TrackedError]) -> Self {
         Self {
             torque: PredictionGain::of_torque(torque),
@@ -83,7 +81,7 @@ impl Gains {
         }
     }
 
-    /// The same at joint `j`.
+    /// The gains at joint `j`.
     pub fn at(
         j: usize,
         torque: &[TorqueError],

@@ -1,4 +1,4 @@
-//! From plant to gain: an arm with effects, what is learned of it, and what that gains.
+//! From plant to gain: an arm with effects, the models learned of it, and their gain.
 //!
 //! ```text
 //! TrackingScenario --simulate--> logs --diagnose, learn--> Learned --track--> TrackedRun, Sweep
@@ -9,11 +9,11 @@
 //!
 //! The simulated arm and the models of it meet here; models learn from the arm's logs alone.
 //!
-//! - `scenario` says what is tracked, and how;
+//! - `scenario` states the motion, the gains and the feedforward of a tracking run;
 //! - `models` learns from logs: models of the torque, and a process of what the findings leave;
 //! - `tracking` tracks a motion with each model fed forward, and writes the runs;
 //! - `torque` measures errors of predicted torque, `replay` the drift of a simulation;
-//! - `gain` sets those errors before and after side by side;
+//! - `gain` compares those errors before and after;
 //! - `scoring` compares a diagnosis with the truth, `claims` the numbers with the paper.
 
 mod claims;

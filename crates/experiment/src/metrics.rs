@@ -6,30 +6,29 @@ use crate::scoring::score::Score;
 use crate::torque::torque_error::TorqueError;
 use crate::tracking::tracked_error::TrackedError;
 
-/// Results of an [`Experiment`](crate::Experiment): the injected effects and the findings, and what
-/// the findings gain on held-out runs.
+/// Results of an [`Experiment`](crate::Experiment): the injected effects, the findings, and the gain of the findings
+/// on held-out runs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Metrics {
     /// Name of the robot.
     pub robot: String,
-    /// Names of the joints, in the order of all that is told joint by joint.
+    /// Names of the joints, in the order of all values by joint.
     pub joints: Vec<String>,
-    /// What was put in, and what was found.
+    /// The injected effects and the findings.
     pub score: Score,
-    /// The runs that causes were found in.
+    /// The runs in which causes were found.
     pub learned: Vec<String>,
-    /// The runs that torque and drift are of.
+    /// The runs on which torque and drift were measured.
     pub test: Vec<String>,
-    /// Errors of the torque: of the robot as described, the extended one, and learned models.
+    /// Torque errors of the robot as described, of the extended robot and of the learned models.
     pub torque: Vec<TorqueError>,
-    /// Drift of the simulation, of the robot as described and the extended one.
+    /// Drift of the simulation of the robot as described and of the extended robot.
     pub forward: ForwardGap,
-    /// Name of the gains of the tracking.
+    /// Name of the set of gains for tracking.
     pub gains: String,
-    /// Errors of the tracking, by what is fed forward.
+    /// Tracking errors, one entry a feedforward.
     pub tracking: Vec<TrackedError>,
-    /// What is claimed of the tracking, judged; nothing where not all of the models were fed
-    /// forward that the claims are about.
+    /// Claims about the tracking, judged. Empty unless all models that the claims compare were fed forward.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub claims: Vec<Claim>,
 }

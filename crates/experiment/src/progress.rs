@@ -1,12 +1,12 @@
-/// Hears what a run of a scenario is doing, and may stop it.
+/// Receives the progress of a scenario's run, and may stop it.
 pub trait Progress: learner::TrainingProgress {
-    /// Something new begins.
+    /// A new step begins.
     fn begin(&self, what: &str);
 
-    /// A second of motion is simulated.
+    /// One more second of motion is simulated.
     fn second(&self);
 
-    /// Whether the run is to end.
+    /// Whether the run is to stop.
     fn is_stopped(&self) -> bool;
 }
 

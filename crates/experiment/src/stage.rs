@@ -8,41 +8,41 @@ use sha2::{Digest, Sha256};
 
 use crate::error::ExperimentError;
 
-/// A part of a run that is made once, and made again when its inputs change.
+/// A part of a run whose files are kept, and made again only when its inputs change.
 ///
 /// ```text
 /// inputs --make--> files, value --last--> stages/NAME.json: hash of inputs, hashes of files, value
 /// ```
 ///
-/// A stage that was killed has no such file, and a file that was changed since has another hash:
-/// both are made again.
+/// A stage is made again when it was interrupted, which leaves no such file, and when one of its files was changed,
+/// which gives another hash.
 #[derive(Debug, Clone)]
 pub struct Stage {
     folder: PathBuf,
     file: PathBuf,
 }
 
-/// What a stage makes.
+/// The result of making a stage.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Product<T> {
-    /// What later stages are told.
+    /// The value for later stages.
     pub value: T,
-    /// Its files, relative to the folder of the run.
+    /// The files of the stage, relative to the folder of the run.
     pub files: Vec<PathBuf>,
 }
 
-/// What a stage has made, now or before.
+/// The result of a stage, made now or before.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Staged<T> {
-    /// What later stages are told.
+    /// The value for later stages.
     pub value: T,
-    /// SHA-256 of its files, by their paths relative to the folder of the run.
+    /// SHA-256 of the files, by their paths relative to the folder of the run.
     pub files: BTreeMap<PathBuf, String>,
-    /// Whether it was made before.
+    /// Whether the result was made before.
     pub is_kept: bool,
 }
 
-/// What a stage is made from, as a hash.
+/// The hash of all inputs of a stage.
 #[derive(Debug, Clone)]
 pub struct StageInputs(Sha256);
 
@@ -55,12 +55,12 @@ struct Stored<T> {
 }
 
 impl StageInputs {
-    /// Those of a version of the program.
+    /// Inputs that start with a version of the program.
     pub fn of(version: &str) -> Self {
         Self(Sha256::new()).and(version.as_bytes())
     }
 
-    /// The same and these bytes.
+    /// The inputs with these bytes added.
     #[must_use]
     pub fn and(mut self, bytes: &[u8]) -> Self {
         self.0.update((bytes.len() as u64).to_le_bytes());
@@ -68,7 +68,7 @@ impl StageInputs {
         self
     }
 
-    /// The same and the bytes of a file.
+    /// The inputs with the bytes of a file added.
     ///
     /// # Errors
     ///
@@ -89,12 +89,12 @@ impl Stage {
         Self { folder: folder.to_owned(), file }
     }
 
-    /// The product of the stage: the stored one where it is whole and of these inputs, otherwise
-    /// what `make` returns.
+    /// The product of the stage: the stored one where it is complete and has these inputs, otherwise the one that
+    /// `make` returns.
     ///
     /// # Errors
     ///
-    /// [`ExperimentError::Stage`] when a file cannot be read or written, and what `make` refuses.
+    /// [`ExperimentError::Stage`] when a file cannot be read or written, and the errors of `make`.
     pub fn make<T, E>(
         &self,
         inputs: StageInputs,
@@ -123,7 +123,7 @@ impl Stage {
         Ok(Staged { value: stored.value, files: stored.files, is_kept: false })
     }
 
-    /// The stored product of these inputs, unless a file is missing or changed.
+    /// The stored product for these inputs, unless a file is missing or changed.
     fn read_product<T: DeserializeOwned>(&self, inputs: &str) -> Option<Stored<T>> {
         let text = std::fs::read_to_string(&self.file).ok()?;
         let stored: Stored<T> = serde_json::from_str(&text).ok()?;
@@ -133,7 +133,7 @@ impl Stage {
         (stored.inputs == inputs && stored.files.iter().all(is_whole)).then_some(stored)
     }
 
-    /// Takes away what says that it was made.
+    /// Removes the record of a finished stage.
     fn begin(&self) -> Result<(), ExperimentError> {
         if let Some(folder) = self.file.parent() {
             std::fs::create_dir_all(folder).map_err(stage_error(folder))?;

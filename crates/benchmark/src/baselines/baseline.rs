@@ -9,7 +9,7 @@ use crate::baselines::scales::Scales;
 use crate::baselines::shape::Shape;
 use crate::error::BenchmarkError;
 
-/// What a plain method makes of logs.
+/// The result of a simple method on logs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Baseline {
     /// Names of causes, strongest first.
@@ -19,7 +19,7 @@ pub struct Baseline {
     scales: Scales,
 }
 
-/// Whether fitted columns stand beside the nominal robot or in its stead.
+/// Whether fitted columns are added to the nominal robot or replace it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Nominal {
     /// Columns are added to its effort.
@@ -46,15 +46,15 @@ impl Baseline {
         Self { names, weights, nominal, scales }
     }
 
-    /// Effort that every joint is expected to report along a run, `[joint][sample]` at the samples
-    /// of the run (N m or N), as a log would have it: not low-passed.
+    /// Predicted effort of every joint along a run, `[joint][sample]` at the samples of the run (N m or N). It is not
+    /// low-passed, as in a log.
     ///
-    /// The motion is the run's wide one ([`logs::Wide`]), so that what is predicted and what was
-    /// measured may pass one filter.
+    /// The motion is the wide-band motion of the run ([`logs::Wide`]), so that prediction and measurement can pass
+    /// the same filter.
     ///
     /// # Panics
     ///
-    /// When the robot is not the one that it was made for, or the run is another robot's.
+    /// When the baseline was made for another robot, or the run is of another robot.
     pub fn predict(&self, robot: &Robot, run: &PreparedRun) -> Vec<Vec<f64>> {
         let run_columns = RunColumns::new(robot, &self.scales, run, 1);
         let shapes: Vec<Vec<Shape>> =
@@ -72,13 +72,13 @@ impl Baseline {
         efforts
     }
 
-    /// RMS of the error on runs that took no part, by joint (N m or N):
+    /// RMS of the error on held-out runs, by joint (N m or N):
     ///
     /// ```text
     /// error = L(clamp(effort, -limit, limit) - predicted)
     /// ```
     ///
-    /// in the band of those runs' motion and at the samples of [`experiment::robot_error`].
+    /// in the band of these runs' motion and at the samples of [`experiment::robot_error`].
     ///
     /// # Errors
     ///
@@ -86,7 +86,7 @@ impl Baseline {
     ///
     /// # Panics
     ///
-    /// When the robot is not the one that it was made for.
+    /// When the baseline was made for another robot.
     pub fn held_out_error(
         &self,
         robot: &Robot,

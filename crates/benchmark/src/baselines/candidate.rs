@@ -9,32 +9,32 @@ use crate::baselines::shape::Shape;
 /// Fewest and most periods of a ripple in a turn.
 const RIPPLES: std::ops::RangeInclusive<u8> = 4..=30;
 
-/// Periods of friction that varies with position, in a turn.
+/// Periods in a turn of friction that varies with position.
 const FRICTION_PERIODS: u8 = 2;
 
-/// Names that have many frequencies to choose from pay for the choice (nats).
+/// Evidence that a name with many frequencies to choose from pays for the choice (nats).
 const RIPPLE_PRICE: f64 = 3.689;
 
-/// Names that fit much pay beforehand (nats).
+/// Evidence that a name with many columns pays beforehand (nats).
 const WIDE_PRICE: f64 = 1.609;
 
-/// By how much a weight may take more than the nominal value away, as a share of that value.
+/// Largest amount by which a weight may reduce the nominal value below zero, as a share of that value.
 const SLACK: f64 = 0.1;
 
-/// A cause that may be named and the columns that it has at every joint.
+/// A cause that may be named, with its columns at every joint.
 pub(super) struct Candidate {
-    /// The name.
+    /// The cause.
     pub at: EffectAt,
-    /// Joints and the shapes at each.
+    /// Joints, and the shapes at each.
     pub parts: Vec<(usize, Vec<Shape>)>,
-    /// What the name costs before it is looked at (nats).
+    /// Evidence that the name pays before it is tested (nats).
     pub price: f64,
     /// The joint at which the weight of the first shape has a least value, and that value.
     pub least: Option<(usize, f64)>,
 }
 
-/// Every cause that the logs could show: those of a joint that does not move are left out, but
-/// for what its drive adds to the reported effort.
+/// Every cause that the logs could show. A joint that does not move has only the causes in which its drive adds to
+/// the reported effort.
 pub(super) fn candidates(robot: &Robot, scales: &Scales) -> Vec<Candidate> {
     let mut all = Vec::new();
     for j in 0..robot.joint_count() {
@@ -71,7 +71,7 @@ fn of_joint(robot: &Robot, j: usize, effect: EffectKind, shapes: &[Shape]) -> Ca
     }
 }
 
-/// What a drive adds whether it moves or not.
+/// Causes of a drive that show whether it moves or not.
 fn of_drive(robot: &Robot, j: usize) -> Vec<Candidate> {
     let plain = |effect, shapes: &[Shape]| of_joint(robot, j, effect, shapes);
     let delay = plain(EffectKind::ActuatorDelay, &[Shape::NominalRate]);
@@ -82,7 +82,7 @@ fn of_drive(robot: &Robot, j: usize) -> Vec<Candidate> {
     ]
 }
 
-/// What shows in a joint's motion.
+/// Causes that show in a joint's motion.
 fn of_motion(robot: &Robot, j: usize) -> Vec<Candidate> {
     let a = &robot.links()[j].actuator;
     let candidate = |effect, shapes: &[Shape], nominal: f64| Candidate {
@@ -111,7 +111,7 @@ fn of_motion(robot: &Robot, j: usize) -> Vec<Candidate> {
     all
 }
 
-/// A spring in the transmission, seen at its joint and at the neighbours.
+/// A spring in the transmission, with columns at its joint and at the neighbours.
 fn elasticity(robot: &Robot, j: usize) -> Candidate {
     let links = robot.links();
     let near = |i: &usize| *i == j || links[j].parent == Some(*i) || links[*i].parent == Some(j);
@@ -124,8 +124,8 @@ fn elasticity(robot: &Robot, j: usize) -> Candidate {
     }
 }
 
-/// The body of a link, seen at every joint that carries it; what the last one has on top of the
-/// description is a payload.
+/// The body of a link, with columns at every joint that carries it. For the last link a change of the described body
+/// is a payload.
 fn body(robot: &Robot, link: usize) -> Candidate {
     let links = robot.links();
     let is_last = link + 1 == links.len();

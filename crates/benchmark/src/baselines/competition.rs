@@ -3,47 +3,47 @@ use crate::baselines::dataset::{Dataset, Joint};
 use crate::baselines::fit::{fit, square_left};
 use crate::baselines::memory::memory;
 
-/// Error that a nearly noiseless log is taken to have, as a share of the torque.
+/// Least error of a log as a share of the torque, for logs that are nearly without noise.
 const FLOOR: f64 = 1e-4;
 
 /// Least fall of the held-out error that counts, as shares of the torque and of the error before.
 const PRACTICAL: f64 = 0.005;
 const LEAST_OF_ERROR: f64 = 0.02;
 
-/// What a fit of the chosen columns leaves at one joint.
+/// Residual of a fit of the chosen columns at one joint.
 #[derive(Debug, Clone)]
 pub(super) struct Standing {
     /// The columns, each once.
     pub columns: Vec<usize>,
     rank: usize,
-    /// Mean square of what is left, with the floor.
+    /// Mean square of the residual, with the floor.
     mean: f64,
-    /// Samples that count as one.
+    /// Number of samples that count as one independent sample.
     memory: f64,
-    /// RMS of what is left where it was held out.
+    /// RMS of the held-out residual.
     held_out: f64,
 }
 
-/// What a candidate would change at one joint.
+/// Effect of a candidate at one joint.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Change {
-    /// Evidence for it (nats).
+    /// Evidence for the candidate (nats).
     pub evidence: f64,
-    /// Whether its weight is one that there can be.
+    /// Whether its weight is physically possible.
     pub possible: bool,
-    /// Log-likelihood that it gains on held-out samples, where that is worth while (nats).
+    /// Gain in log-likelihood on held-out samples, where it is large enough to matter (nats).
     pub gain: f64,
     /// Whether it predicts noticeably worse.
     pub is_worse: bool,
 }
 
-/// The joints of some logs and what is asked of them.
+/// The joints of some logs, and the two questions about a candidate.
 pub(super) struct Competition<'a> {
     dataset: &'a Dataset,
 }
 
 impl<'a> Competition<'a> {
-    /// A competition over the columns that were dataset.
+    /// A competition over the columns of a dataset.
     pub fn new(dataset: &'a Dataset) -> Self {
         Self { dataset }
     }
@@ -52,19 +52,19 @@ impl<'a> Competition<'a> {
         &self.dataset.joints[j]
     }
 
-    /// Where the columns of a part are.
+    /// Indices of the columns of a part.
     pub fn places(&self, (j, shapes): &(usize, Vec<super::shape::Shape>)) -> Vec<usize> {
         let all = &self.joint(*j).shapes;
         shapes.iter().filter_map(|shape| all.iter().position(|other| other == shape)).collect()
     }
 
-    /// `columns` and those of `places` that are not among them.
+    /// `columns`, and the columns of `places` that are not among them.
     pub fn union(columns: &[usize], places: &[usize]) -> Vec<usize> {
         let new = places.iter().filter(|place| !columns.contains(place));
         columns.iter().chain(new).copied().collect()
     }
 
-    /// What columns leave at joint `j`.
+    /// The residual after some columns at joint `j`.
     pub fn standing(&self, j: usize, columns: Vec<usize>) -> Standing {
         let joint = self.joint(j);
         let fitted = fit(&joint.total, &columns, joint.target());
@@ -86,7 +86,7 @@ impl<'a> Competition<'a> {
         square / self.joint(j).samples.max(1) as f64 + self.floor(j)
     }
 
-    /// RMS of what columns leave of samples that their weights were not fitted to.
+    /// RMS of the residual of some columns, on samples outside the fit of their weights.
     fn held_out_rms(&self, j: usize, columns: &[usize]) -> f64 {
         let joint = self.joint(j);
         let residual_square = |[learned, held]: &[faer::Mat<f64>; 2]| {
@@ -96,8 +96,7 @@ impl<'a> Competition<'a> {
         (joint.folds.iter().map(residual_square).sum::<f64>() / joint.samples.max(1) as f64).sqrt()
     }
 
-    /// Evidence for the columns of `with` beside those of `without`, for samples of which
-    /// `memory` count as one:
+    /// Evidence for the columns of `with` over those of `without`, where `memory` samples count as one:
     ///
     /// ```text
     /// g = n / 2 log(mean without / mean with) - (rank with - rank without) / 2 log(n)
@@ -133,7 +132,7 @@ impl<'a> Competition<'a> {
         Change { evidence: self.evidence(j, memory, means, more), possible, ..nothing }
     }
 
-    /// The second question: do the names predict samples that took no part better with it?
+    /// The second question: do the names predict held-out samples better with the candidate?
     pub fn predict(&self, candidate: &Candidate, part: usize, standing: &Standing) -> Change {
         let of = &candidate.parts[part];
         let (j, joint) = (of.0, self.joint(of.0));
@@ -151,7 +150,7 @@ impl<'a> Competition<'a> {
         Change { evidence: 0.0, possible: true, gain, is_worse }
     }
 
-    /// Evidence that goes where joint `j` keeps the columns of `rest` alone (nats).
+    /// Evidence that is lost when joint `j` keeps only the columns of `rest` (nats).
     pub fn loss(&self, j: usize, standing: &Standing, rest: &[usize]) -> f64 {
         let joint = self.joint(j);
         let fitted = fit(&joint.total, rest, joint.target());

@@ -16,10 +16,10 @@ use crate::baselines::shape::Shape;
 const SETTLING_PERIODS: f64 = 1.5;
 const SETTLING_S: f64 = 0.5;
 
-/// What the columns are to explain.
+/// The signal that the columns explain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Target {
-    /// Effort less that of the nominal robot.
+    /// Effort minus that of the nominal robot.
     Gap,
     /// Effort.
     Effort,
@@ -27,17 +27,17 @@ pub(super) enum Target {
 
 /// All columns at one joint over all runs, and their sums of products.
 pub(super) struct Joint {
-    /// What the columns are; the target is behind them.
+    /// Shapes of the columns; the target follows them.
     pub shapes: Vec<Shape>,
-    /// RMS of each column; columns are kept divided by it.
+    /// RMS of each column, by which the stored columns are divided.
     pub scales: Vec<f64>,
-    /// Column by column, the target last.
+    /// Values column by column, the target last.
     columns: Vec<f64>,
-    /// Samples over all runs.
+    /// Number of samples over all runs.
     pub samples: usize,
-    /// Sums over all samples.
+    /// Gram matrix over all samples.
     pub total: Mat<f64>,
-    /// Sums of what is learned from, and of what is held out.
+    /// Gram matrices of the training samples and of the held-out samples of each fold.
     pub folds: Vec<[Mat<f64>; 2]>,
     /// RMS of the effort (N m or N).
     pub torque_rms: f64,
@@ -51,7 +51,7 @@ pub(super) struct Dataset {
     pub runs: Vec<Range<usize>>,
 }
 
-/// Columns by joint as they grow run by run, with the effort and the target behind them.
+/// Columns by joint that grow run by run, followed by the effort and the target.
 struct Growing {
     columns: Vec<Vec<Vec<f64>>>,
     runs: Vec<Range<usize>>,
@@ -157,7 +157,7 @@ impl Joint {
         &self.columns[index * self.samples..(index + 1) * self.samples]
     }
 
-    /// The target less columns times weights.
+    /// The target minus the columns times their weights.
     pub fn residual_of(&self, columns: &[usize], weights: &[f64]) -> Vec<f64> {
         let mut left = self.column(self.target()).to_vec();
         for (&column, weight) in columns.iter().zip(weights) {

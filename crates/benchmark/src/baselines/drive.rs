@@ -1,7 +1,6 @@
 use robot::Actuator;
 
-/// State of a joint at one instant: position, velocity, acceleration, direction, and the torque of
-/// the bodies.
+/// State of a joint at one instant: position, velocity, acceleration, direction, and the torque of the bodies.
 pub(super) struct Instant {
     pub q: f64,
     pub qd: f64,
@@ -10,7 +9,7 @@ pub(super) struct Instant {
     pub body: f64,
 }
 
-/// Effort that a described drive is expected to report, from what has no memory in it:
+/// Effort that a described drive is expected to report, without the effects that have a memory:
 ///
 /// ```text
 /// load   = body + stiffness x + cubic x³ + counterbalance sin(q + phase),   x = q - rest

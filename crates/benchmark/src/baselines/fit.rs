@@ -1,22 +1,22 @@
 use faer::Mat;
 
-/// Share of a column's square below which nothing is left of it beside the columns before it.
+/// Share of a column's square below which it counts as dependent on the columns before it.
 const DEPENDENT: f64 = 1e-10;
 
-/// Least squares on some columns, from their sums of products.
+/// Least squares on some columns, from their Gram matrix.
 pub(super) struct Fit {
-    /// One per column asked for; 0 for those that depend on others.
+    /// One weight per column; 0 for columns that depend on others.
     pub weights: Vec<f64>,
-    /// Columns that do not.
+    /// Number of independent columns.
     pub rank: usize,
-    /// What is left of the square of the target.
+    /// Sum of squares of the residual.
     pub square: f64,
 }
 
-/// Weights of `columns` for the column `target` of a Gram matrix, by elimination in order of what
-/// is left of each: `m³ / 3` multiplications for `m` columns.
+/// Weights of `columns` for the column `target` of a Gram matrix, by elimination that takes the column with the
+/// largest remaining share of its square first: `m³ / 3` multiplications for `m` columns.
 ///
-/// A column with less than 1e-10 of its square left takes no part.
+/// A column is left out once less than 1e-10 of its square remains.
 pub(super) fn fit(gram: &Mat<f64>, columns: &[usize], target: usize) -> Fit {
     let m = columns.len();
     let mut a: Vec<f64> =
@@ -53,7 +53,7 @@ pub(super) fn fit(gram: &Mat<f64>, columns: &[usize], target: usize) -> Fit {
     Fit { weights, rank: order.len(), square: square.max(0.0) }
 }
 
-/// Square of the target less `weights` times the columns, on the samples of a Gram matrix.
+/// Sum of squares of the target minus `weights` times the columns, on the samples of a Gram matrix.
 pub(super) fn square_left(
     gram: &Mat<f64>,
     columns: &[usize],

@@ -9,26 +9,26 @@ use std::ops::Range;
 const FEWEST: usize = 3;
 const MOST: usize = 8;
 
-/// Blocks of a run where there are fewer runs.
+/// Number of blocks of a run where there are fewer runs.
 const BLOCKS: usize = 4;
 
-/// Time between what is held out and what is learned from, inside a run (s).
+/// Time between held-out and training samples inside a run (s).
 const GAP_S: f64 = 0.5;
 
-/// Samples that take no part in a fit and are predicted by it.
+/// A held-out part of the samples.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct HeldOut {
-    /// What is predicted.
+    /// Held-out samples, which are predicted.
     pub held: Vec<Range<usize>>,
-    /// What is beside it in a run: part of neither side.
+    /// Samples beside them in a run, which belong to neither side.
     pub near: Vec<Range<usize>>,
 }
 
-/// The folds of runs that lie behind one another, at one rate (Hz).
+/// The folds of consecutive runs at one rate (Hz).
 ///
-/// Whole runs take turns, neighbours together where there are more than eight; of fewer than
-/// three runs, four blocks each, with half a second on both sides left out, or an eighth of a
-/// block where that is less.
+/// Whole runs are held out in turn, neighbours together where there are more than eight. Fewer than three runs are
+/// cut into four blocks each. Half a second beside a block is then left out on each side, or an eighth of a block
+/// where that is less.
 pub(super) fn folds(runs: &[Range<usize>], rate_hz: f64) -> Vec<HeldOut> {
     if runs.len() >= FEWEST {
         let count = runs.len().min(MOST);

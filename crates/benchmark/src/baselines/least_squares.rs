@@ -14,30 +14,30 @@ use crate::baselines::scales::Scales;
 use crate::baselines::shape::Shape;
 use crate::error::BenchmarkError;
 
-/// Standard errors by which a parameter must be off its nominal value to be named.
+/// Number of standard errors by which a parameter must differ from its nominal value to be named.
 const STANDARD_ERRORS: f64 = 3.0;
 
-/// Least effort of what it is off by, as a share of the joint's effort.
+/// Least effort of that difference, as a share of the joint's effort.
 const LEAST_SHARE: f64 = 0.02;
 
-/// Share of a column's square that must be left beside all others for its parameter to be known.
+/// Least share of a column's square that is independent of all other columns, for its parameter to be known.
 const KNOWN: f64 = 1e-6;
 
-/// Error below which a joint counts no more, as a share of its effort.
+/// Least residual of a joint for its weight, as a share of its effort.
 const FLOOR: f64 = 1e-4;
 
-/// The model that identification of robots begins with, which takes the nominal one's place:
+/// The standard model of robot identification, which replaces the nominal one:
 ///
 /// ```text
 /// effort = Y_b pi_b + rotor qdd + viscous qd + coulomb s + offset,   s = tanh(qd / noise of qd)
 /// ```
 ///
-/// Base parameters of the bodies and four of every drive by least squares over all joints, first
-/// with the efforts' RMS as weights and then with that of what is left (Swevers et al. 1997).
+/// Base parameters of the bodies and four parameters of every drive, by least squares over all joints, weighted first
+/// by the RMS of the efforts and then by that of the residuals (Swevers et al. 1997).
 ///
-/// Friction, offset and rotor are named where the estimate is three standard errors and 2 % of the
-/// joint's effort away from the nominal value, most effort first. A standard error counts samples
-/// that tell as much as one for one, and is that beside all other parameters.
+/// Friction, offset and rotor are named where the estimate is three standard errors and 2 % of the joint's effort
+/// away from the nominal value, most effort first. A standard error counts only independent samples, and includes the
+/// uncertainty of all other parameters.
 ///
 /// # Errors
 ///
@@ -64,7 +64,7 @@ pub fn least_squares(
     Ok(Baseline::new(fit.names(), weights, (Nominal::Replaced, scales)))
 }
 
-/// Whether a drive's column says anything: a joint that does not move has no friction to see.
+/// Whether a drive's column is informative: a joint that does not move shows no friction.
 fn shows(column: &RegressorColumn, scales: &Scales) -> bool {
     match *column {
         RegressorColumn::Inertial { .. } | RegressorColumn::Offset { .. } => true,
@@ -74,7 +74,7 @@ fn shows(column: &RegressorColumn, scales: &Scales) -> bool {
     }
 }
 
-/// What a parameter does at joint `j`, if anything.
+/// The column of a parameter at joint `j`, if it has one.
 fn shape(robot: &Robot, j: usize, column: &RegressorColumn) -> Option<Shape> {
     let (joint, shape) = match *column {
         RegressorColumn::Inertial { link, parameter } => {
@@ -93,20 +93,20 @@ struct Fitted<'a> {
     robot: &'a Robot,
     dataset: Dataset,
     columns: Vec<RegressorColumn>,
-    /// What a joint's rows are divided by.
+    /// Divisor of the rows of each joint.
     deviations: Vec<f64>,
     /// One per column.
     parameters: Vec<f64>,
 }
 
 impl Fitted<'_> {
-    /// Index among all columns of each at joint `j`, in the order of the joint's.
+    /// Index among all columns of each column at joint `j`, in the order of the joint's columns.
     fn places(&self, j: usize) -> Vec<usize> {
         let here = |c: &usize| shape(self.robot, j, &self.columns[*c]).is_some();
         (0..self.columns.len()).filter(here).collect()
     }
 
-    /// Sums of products over all joints, the effort last.
+    /// Gram matrix over all joints, the effort last.
     fn sums(&self) -> Mat<f64> {
         let width = self.columns.len();
         let mut sums = Mat::zeros(width + 1, width + 1);
@@ -136,7 +136,7 @@ impl Fitted<'_> {
         self.places(j).iter().zip(scales).map(|(&at, scale)| self.parameters[at] * scale).collect()
     }
 
-    /// RMS of what is left at joint `j`, with the floor.
+    /// RMS of the residual at joint `j`, with the floor.
     fn residual_rms(&self, j: usize) -> f64 {
         let joint = &self.dataset.joints[j];
         let own: Vec<usize> = (0..joint.target()).collect();
@@ -151,7 +151,7 @@ impl Fitted<'_> {
         shapes.map(with_weight).collect()
     }
 
-    /// Samples at joint `j` that tell as much as one.
+    /// Number of samples at joint `j` that count as one independent sample.
     fn memory(&self, j: usize) -> f64 {
         let joint: &Joint = &self.dataset.joints[j];
         let own: Vec<usize> = (0..joint.target()).collect();

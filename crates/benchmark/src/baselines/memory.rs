@@ -1,13 +1,13 @@
 use std::ops::Range;
 
-/// Correlation below which what is farther apart counts as independent.
+/// Correlation below which samples farther apart count as independent.
 const INDEPENDENT: f64 = 0.05;
 
-/// Most samples over which a correlation is summed.
+/// Largest lag of the sum of correlations (samples).
 const FARTHEST: usize = 60;
 
-/// Samples of a signal that tell as much as one independent one: its integrated autocorrelation
-/// time over runs that have nothing to do with one another,
+/// Number of samples of a signal that count as one independent sample: its integrated autocorrelation time over
+/// independent runs,
 ///
 /// ```text
 /// t = 1 + 2 sum over k of rho(k),   up to the first rho below 0.05

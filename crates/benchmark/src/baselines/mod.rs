@@ -1,14 +1,14 @@
-//! Two plain methods that a diagnosis is measured against.
+//! Two simple methods that a diagnosis is compared with.
 //!
 //! ```text
 //! least_squares:  effort = Y pi + friction + offset + rotor,   all of it fitted, nominal forgotten
 //! two_questions:  effort - nominal effort = sum over names of columns weights, names one by one
 //! ```
 //!
-//! Neither uses the columns, the search or the statistics of the diagnosis: what is compared with
-//! it shares the log's preparation, the rigid bodies of `dynamics` and the names of the catalogue.
+//! Neither uses the columns, the search or the statistics of the diagnosis. They share only the preparation of the
+//! logs, the rigid bodies of `dynamics` and the names of the catalogue.
 //!
-//! - [`Baseline`] is what either makes of logs: names, and efforts that it predicts;
+//! - [`Baseline`] is the result of either method: names, and predicted efforts;
 //! - `run_columns` is the motion of a run and every column along it, `shape` names the columns;
 //! - `candidate` is a cause and its columns, `dataset` the columns of all runs and their sums;
 //! - `fit` is least squares from sums, `folds` says which samples are kept apart.

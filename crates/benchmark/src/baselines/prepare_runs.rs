@@ -1,8 +1,8 @@
 use logs::{LogError, PrepareSettings, Prepared, Run, centre_commands, prepare};
 use robot::{Robot, TorqueSource};
 
-/// Runs on a uniform clock, commands at the time of their samples and no larger than the joint's
-/// limit, as `diagnosis::unexplained_torque` reads them.
+/// Runs at uniform sample times. Commands stand at the times of their samples and are clipped at the joint's limit,
+/// as in `diagnosis::unexplained_torque`.
 pub(super) fn prepare_runs(
     robot: &Robot,
     control_rate_hz: Option<f64>,

@@ -13,7 +13,7 @@ const STEP: f64 = 1e-4;
 /// Signals as `[joint][sample]`.
 type Signals = Vec<Vec<f64>>;
 
-/// The motion of a run and all that columns along it are made of.
+/// The motion of a run and all signals from which its columns are made.
 pub(super) struct RunColumns<'a> {
     robot: &'a Robot,
     scales: &'a Scales,
@@ -22,12 +22,13 @@ pub(super) struct RunColumns<'a> {
     state: [Signals; 3],
     sign: Signals,
     body: Signals,
-    /// Effort of the robot as it is described (N m or N).
+    /// Effort of the robot as described (N m or N).
     pub nominal: Signals,
 }
 
 impl<'a> RunColumns<'a> {
-    /// Every `stride`-th sample of a run, as a robot sees it: `q = ratio (q_reported - offset)`.
+    /// Every `stride`-th sample of a run, corrected for the described encoder errors: `q = ratio (q_reported -
+    /// offset)`.
     pub fn new(robot: &'a Robot, scales: &'a Scales, run: &PreparedRun, stride: usize) -> Self {
         let n = robot.joint_count();
         let mut state = [Vec::new(), Vec::new(), Vec::new()];
@@ -61,7 +62,7 @@ impl<'a> RunColumns<'a> {
         self.sign.first().map_or(0, Vec::len)
     }
 
-    /// The torque of the bodies and the nominal effort.
+    /// Computes the torque of the bodies and the nominal effort.
     fn evaluate(&mut self) {
         let n = self.robot.joint_count();
         let mut body = vec![Vec::with_capacity(self.samples()); n];
@@ -116,7 +117,7 @@ impl<'a> RunColumns<'a> {
         columns
     }
 
-    /// A column that is a function of the joint's own signals; empty for others.
+    /// A column that is a function of the joint's own signals; empty for other columns.
     fn simple(&self, j: usize, shape: Shape) -> Vec<f64> {
         let [q, qd, qdd] = [0, 1, 2].map(|i| &self.state[i][j]);
         let (sign, nominal) = (&self.sign[j], &self.nominal[j]);
@@ -204,7 +205,7 @@ impl<'a> RunColumns<'a> {
         }
     }
 
-    /// Minus the change of all torques for a change of the state of one joint.
+    /// Minus the change of all torques when the state of one joint changes.
     fn by_joint(&self, joint: usize, by: [&[f64]; 3]) -> Signals {
         let n = self.robot.joint_count();
         let mut change = vec![Vec::with_capacity(self.samples()); n];
@@ -227,7 +228,7 @@ impl<'a> RunColumns<'a> {
     }
 }
 
-/// Two vectors as long as gravity, across it and each other.
+/// Two vectors as long as gravity, orthogonal to it and to each other.
 fn across(gravity: Vector3<f64>) -> [Vector3<f64>; 2] {
     let axis = match gravity.x.abs() < 0.5 * gravity.norm() {
         true => Vector3::x(),

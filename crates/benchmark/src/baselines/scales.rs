@@ -1,22 +1,22 @@
 use logs::{Prepared, rest_speeds};
 use robot::Robot;
 
-/// Least way over which a joint moves (rad or m), and the same as a share of the longest way of
-/// any joint of its kind.
+/// Least range over which a joint moves (rad or m), and the same as a share of the largest range of any joint of its
+/// kind.
 const LEAST_WAY: f64 = 2e-3;
 const LEAST_SHARE: f64 = 0.02;
 
-/// Width of the change of a direction, in speeds that count as rest: four standard deviations of
-/// the velocity's noise are one of those.
+/// Width of a change of direction, in speeds below which a joint counts as at rest. One such speed is four standard
+/// deviations of the velocity's noise.
 const SIGN_WIDTH: f64 = 0.5;
 
-/// What columns take from logs as a whole.
+/// Scales of the columns, from the logs as a whole.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Scales {
     /// Speed at which the direction of a joint is `tanh(1)` (rad/s or m/s).
     pub sign_speed: Vec<f64>,
-    /// Phase per position: 1 at a rotation; at a translation the way in the logs counts as a
-    /// turn (rad/m).
+    /// Phase per position: 1 for a revolute joint. For a prismatic joint the range in the logs counts as one turn
+    /// (rad/m).
     pub phase_per_way: Vec<f64>,
     /// Whether the joint moves.
     pub moves: Vec<bool>,

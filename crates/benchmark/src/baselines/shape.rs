@@ -1,4 +1,4 @@
-/// A column at one joint: how its effort changes with one weight (all along the motion).
+/// A column at one joint: the change of its effort per unit of one weight, along the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Shape {
     /// `qd`
@@ -11,7 +11,7 @@ pub(super) enum Shape {
     Acceleration,
     /// Effort of the nominal robot.
     Nominal,
-    /// Its derivative by time.
+    /// Time derivative of the nominal effort.
     NominalRate,
     /// `q`
     Position,
@@ -25,7 +25,7 @@ pub(super) enum Shape {
     Sine(u8),
     /// `cos(k phase)`
     Cosine(u8),
-    /// Gravity torque for gravity across its direction, as large as it is; one of two directions.
+    /// Torque of a gravity vector of the same length, orthogonal to gravity, in one of two directions.
     Tilt(u8),
     /// Regressor of an inertial parameter of a link.
     Body {

@@ -15,36 +15,36 @@ use crate::error::BenchmarkError;
 const CUTOFF_HZ: f64 = 13.0;
 const CUTOFF_SHARE: f64 = 0.2;
 
-/// Evidence that a name needs (nats).
+/// Evidence that a name needs to enter (nats).
 const THRESHOLD: f64 = 5.0;
 
-/// Evidence below which a name leaves again (nats).
+/// Evidence below which a name is removed again (nats).
 const NEEDED: f64 = 1.0;
 
-/// Candidates, strongest first, that are asked the second question.
+/// Number of candidates, strongest first, that get the second question.
 const ASKED: usize = 16;
 
-/// Share of the best prediction that a plainer name may fall short of.
+/// Share of the best prediction at which a simpler name is preferred.
 const NEARLY: f64 = 0.9;
 
 /// Most names, and most times that one enters.
 const MOST_NAMES: usize = 30;
 const MOST_STEPS: usize = 60;
 
-/// Names by two questions, and nothing else.
+/// Names causes by two questions alone.
 ///
 /// ```text
 /// 1. does the log prefer the effort with the name?   evidence of effective samples > 5 nats
 /// 2. do the names predict what took no part better?  by 0.5 % of the torque, 2 % of the error
 /// ```
 ///
-/// Both are asked of least squares on tangents about the nominal robot, joint by joint. Of those
-/// that predict nearly as well as the best the one with the fewest columns enters, and what is no
-/// longer needed leaves. Names come with the one first without which most evidence goes.
+/// Both are answered by least squares on tangents about the nominal robot, joint by joint. Of the names that predict
+/// nearly as well as the best, the one with the fewest columns enters. A name that is no longer needed is removed.
+/// The result is sorted by the evidence that is lost without each name, the largest first.
 ///
-/// Samples that took no part are those of whole runs, or of quarters of runs where there are fewer
-/// than three. The band ends at 13 Hz or a fifth of the slowest log's rate. No weight is shared by
-/// joints, no body need be one that there can be, and play, presliding and limits have no name.
+/// Held-out samples are whole runs, or quarters of runs where there are fewer than three. The band ends at 13 Hz or a
+/// fifth of the slowest log's rate. Joints share no weights, bodies need not be physical, and play, presliding and
+/// limits have no name.
 ///
 /// Cost: with `N` samples at 2.5 cut-offs, `m` columns at a joint and `n` joints, about
 /// `250 N m n` operations for columns in the band, `2 N m² n` for their sums of products, and
@@ -86,7 +86,7 @@ fn shapes(joints: usize, candidates: &[Candidate]) -> Vec<Vec<Shape>> {
     shapes
 }
 
-/// The weights of what was chosen at a joint, fitted to all samples.
+/// The weights of the chosen columns at a joint, fitted to all samples.
 fn weights(dataset: &Dataset, j: usize, search: &Search) -> Vec<Weighted> {
     let (joint, columns) = (&dataset.joints[j], &search.standings[j].columns);
     let fitted = fit(&joint.total, columns, joint.target()).weights;
@@ -97,13 +97,13 @@ fn weights(dataset: &Dataset, j: usize, search: &Search) -> Vec<Weighted> {
     columns.iter().zip(fitted).map(with_weight).collect()
 }
 
-/// The names so far and what they leave.
+/// The names so far and their residuals.
 struct Search<'a> {
     competition: Competition<'a>,
     candidates: &'a [Candidate],
     chosen: Vec<usize>,
     standings: Vec<Standing>,
-    /// Answers to both questions by candidate and part, as long as they hold.
+    /// Answers to both questions by candidate and part, while they are valid.
     asked: Vec<Vec<Option<Change>>>,
     predicted: Vec<Vec<Option<Change>>>,
 }
@@ -168,7 +168,7 @@ impl<'a> Search<'a> {
         near.min_by(plainer).map(|(.., c)| *c)
     }
 
-    /// Evidence for a candidate over its joints; none for one that cannot be.
+    /// Evidence for a candidate, summed over its joints; `None` where it is physically impossible.
     fn evidence(&mut self, c: usize) -> Option<f64> {
         let candidate = &self.candidates[c];
         let mut evidence = -candidate.price;
@@ -181,7 +181,7 @@ impl<'a> Search<'a> {
         Some(evidence)
     }
 
-    /// Held-out gain of a candidate over its joints; none where there is none.
+    /// Held-out gain of a candidate, summed over its joints; `None` where it does not gain.
     fn gain(&mut self, c: usize) -> Option<f64> {
         let candidate = &self.candidates[c];
         let mut gain = 0.0;
@@ -194,7 +194,7 @@ impl<'a> Search<'a> {
         (gain > 0.0).then_some(gain)
     }
 
-    /// The columns of all names but `without`, at joint `j`.
+    /// The columns of all names except `without`, at joint `j`.
     fn columns(&self, j: usize, without: Option<usize>) -> Vec<usize> {
         let names = self.chosen.iter().filter(|name| Some(**name) != without);
         let parts = names.flat_map(|name| &self.candidates[*name].parts);
@@ -202,7 +202,7 @@ impl<'a> Search<'a> {
         here.fold(Vec::new(), |all, part| Competition::union(&all, &self.competition.places(part)))
     }
 
-    /// Fits the joints of a name anew and forgets what was asked at them.
+    /// Fits the joints of a name again and discards the answers there.
     fn update(&mut self, name: usize) {
         for (j, _) in &self.candidates[name].parts {
             self.standings[*j] = self.competition.standing(*j, self.columns(*j, None));
@@ -215,7 +215,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Evidence that goes with a name (nats).
+    /// Evidence that is lost without a name (nats).
     fn loss(&self, name: usize) -> f64 {
         let of = |(j, _): &(usize, Vec<Shape>)| {
             self.competition.loss(*j, &self.standings[*j], &self.columns(*j, Some(name)))

@@ -11,33 +11,33 @@ use crate::paired::turned::Turned;
 use crate::trials::campaign_folder::CampaignFolder;
 use crate::trials::record::Record;
 
-/// Two results of the trials of one campaign, trial by trial.
+/// Two results for the trials of one campaign, compared trial by trial.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PairedComparison {
-    /// The campaign, by its hash.
+    /// Hash of the campaign.
     pub campaign: String,
-    /// Trials that both have.
+    /// Number of trials in both results.
     pub pairs: usize,
-    /// Trials that one of them has alone.
+    /// Number of trials in one result only, for each.
     pub alone: [usize; 2],
-    /// Trials of both that failed, in each.
+    /// Number of the common trials that failed, for each result.
     pub failed: [usize; 2],
-    /// Questions with a yes or a no.
+    /// Yes-or-no measures.
     pub shares: Vec<PairedShare>,
-    /// Numbers.
+    /// Numeric measures.
     pub means: Vec<PairedMean>,
-    /// Trials of which they say something else.
+    /// Trials that the two results answer differently.
     pub turned: Vec<Turned>,
 }
 
 impl PairedComparison {
-    /// Reads two results, each the folder of a campaign or a table that [`Record::write`] has written, and
-    /// compares the trials that both have; the second is better where it wins.
+    /// Reads two results and compares the trials that both have. A result is the folder of a campaign or a table that
+    /// [`Record::write`] has written. A win is a trial in which the second is better.
     ///
     /// # Errors
     ///
     /// [`BenchmarkError::UnreadableTrials`], [`BenchmarkError::OtherTrials`] where they are of two campaigns,
-    /// [`BenchmarkError::NoCommonTrials`], and what keeps a folder from being read.
+    /// [`BenchmarkError::NoCommonTrials`], and the errors of reading a folder.
     pub fn read(first: &Path, second: &Path) -> Result<Self, BenchmarkError> {
         let [a, b] = [records(first)?, records(second)?];
         if let (Some(own), Some(other)) = (a.values().next(), b.values().next())
@@ -55,7 +55,7 @@ impl PairedComparison {
         })
     }
 
-    /// Trials by task; those pair that have one seed too. None where none pairs.
+    /// The comparison of trials by task; a pair must also have equal seeds. `None` without pairs.
     fn of(a: &BTreeMap<usize, Record>, b: &BTreeMap<usize, Record>) -> Option<Self> {
         let pair = |(task, first): (&usize, &'_ Record)| {
             b.get(task).filter(|second| second.seed == first.seed).map(|_| *task)

@@ -5,7 +5,7 @@ use crate::paired::turned::Turned;
 use crate::statistics::text_table::TextTable;
 
 impl PairedComparison {
-    /// Counts, tables within 100 columns, and the trials that turned, each in a line.
+    /// Counts, tables within 100 columns, and one line for each trial with different answers.
     pub fn text(&self) -> String {
         let campaign = self.campaign.get(..8).unwrap_or(&self.campaign);
         let mut text = format!("{} trials of campaign {campaign} in both\n", self.pairs);
@@ -29,7 +29,7 @@ impl PairedComparison {
         text
     }
 
-    /// Answers with a yes or a no, and numbers.
+    /// The table of yes-or-no measures and the table of numeric ones.
     pub fn tables(&self) -> [TextTable; 2] {
         [self.answers(), self.numbers()]
     }

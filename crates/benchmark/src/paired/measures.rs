@@ -8,37 +8,37 @@ use crate::panel::judgement::Judgement;
 use crate::trials::record::Record;
 use crate::trials::scored::Scored;
 
-/// What a trial is asked that has a yes or a no.
+/// Yes-or-no measures of a trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Measure {
-    /// All that is visible is named, or a rival of it is, and nothing false. Without an answer it is not.
+    /// Every visible cause or a rival of it is named, and nothing false is. A trial without an answer is not right.
     Right,
-    /// "Consistent" or "explained" is said of a trial that hides something which is not named.
+    /// The verdict is "consistent" or "explained" although the trial hides a cause that is not named.
     FalseAssurance,
     /// Something is named or left open in a trial that hides nothing.
     FalseAlarm,
-    /// The findings make the prediction of torque worse, by more than 1 %.
+    /// The findings make the torque prediction worse by more than 1 %.
     #[serde(rename = "worse")]
     WorsePrediction,
 }
 
-/// What a trial is asked that has a number.
+/// Numeric measures of a trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TrialQuantity {
-    /// True findings of all of them.
+    /// True findings over all findings.
     Precision,
-    /// Visible causes that are named, of all of them.
+    /// Visible causes that are named, over all visible causes.
     Recall,
-    /// Error of held-out torque with the findings over that without, from 0.001 to 1000.
+    /// Held-out torque error with the findings over the error without, clipped to 0.001 to 1000.
     ErrorRatio,
     /// Time of the diagnosis (s).
     Time,
 }
 
 impl Measure {
-    /// All of them.
+    /// All measures.
     pub const ALL: [Self; 4] =
         [Self::Right, Self::FalseAssurance, Self::FalseAlarm, Self::WorsePrediction];
 
@@ -47,7 +47,7 @@ impl Measure {
         self == Self::Right
     }
 
-    /// The answer of a trial; none where the question makes no sense.
+    /// The answer for a trial; `None` where the measure does not apply.
     pub(super) fn of(self, record: &Record) -> Option<bool> {
         match (&record.score, self) {
             (Err(_), Self::Right) => Some(false),
@@ -66,7 +66,7 @@ impl Measure {
         }
     }
 
-    /// What is put into the arm of a scenario counts as visible, what is not looked for as a stranger.
+    /// The injected effects of a scenario count as visible, those that are not looked for as effects of no catalogue.
     fn of_scenario(self, one: &Score) -> Option<bool> {
         let hides = !one.injected.is_empty();
         let named = one.looked_for && one.is_found();
@@ -90,15 +90,15 @@ impl Measure {
 }
 
 impl TrialQuantity {
-    /// All of them.
+    /// All quantities.
     pub const ALL: [Self; 4] = [Self::Precision, Self::Recall, Self::ErrorRatio, Self::Time];
 
-    /// Whether its differences are those of its logarithms, told as factors.
+    /// Whether it is compared by its logarithm and reported as a factor.
     pub fn is_factor(self) -> bool {
         matches!(self, Self::ErrorRatio | Self::Time)
     }
 
-    /// The number of a trial, or its logarithm; none where there is none.
+    /// The number for a trial, or its logarithm; `None` where the trial has none.
     pub(super) fn of(self, record: &Record) -> Option<f64> {
         let number = match record.score.as_ref().ok()? {
             Scored::Panel(one) => self.of_panel(one)?,

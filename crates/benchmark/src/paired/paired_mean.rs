@@ -3,32 +3,32 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::paired::measures::TrialQuantity;
 
-/// The mean of a number over the same trials, with two answers each.
+/// The mean of a number over the same trials, for two results.
 ///
 /// ```text
 /// d_i = second_i - first_i,   difference = mean of d,   interval = difference -+ t s / sqrt(n)
 /// ```
 ///
-/// with `s` the standard deviation of `d` and `t` the 97.5th percentile of Student's distribution with
-/// `n - 1` degrees of freedom. Of errors and times the logarithms are taken, and all is on_scale as factors.
+/// with `s` the standard deviation of `d` and `t` the 97.5th percentile of Student's distribution with `n - 1`
+/// degrees of freedom. Errors and times are compared by their logarithms and reported as factors.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PairedMean {
-    /// Which number.
+    /// The number.
     pub quantity: TrialQuantity,
-    /// Trials that have both.
+    /// Number of trials in which both results have it.
     pub trials: usize,
-    /// Mean of the first, geometric for factors.
+    /// Mean of the first result, geometric for factors.
     pub first: f64,
-    /// Mean of the second.
+    /// Mean of the second result, geometric for factors.
     pub second: f64,
     /// Mean difference, or the factor from the first to the second.
     pub difference: f64,
-    /// 95 per cent interval of it, none of a single trial.
+    /// 95 per cent interval of the difference; `None` for a single trial.
     pub interval: Option<[f64; 2]>,
 }
 
 impl PairedMean {
-    /// Pairs of a first and a second number, or of their logarithms; none without any.
+    /// From pairs of a first and a second number, or of their logarithms; `None` without pairs.
     pub fn new(quantity: TrialQuantity, pairs: &[(f64, f64)]) -> Option<Self> {
         let n = pairs.len() as f64;
         let mean = |of: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(of).sum::<f64>() / n;

@@ -3,7 +3,7 @@ use statrs::distribution::{Beta, Binomial, ContinuousCDF, DiscreteCDF};
 
 use crate::paired::measures::Measure;
 
-/// The same trials asked the same with two answers each.
+/// One yes-or-no measure on the same trials, for two results.
 ///
 /// ```text
 /// wins    trials in which the second answer alone is the better one,  losses  the first alone
@@ -12,32 +12,32 @@ use crate::paired::measures::Measure;
 /// interval = (2 [a, b] - 1) (wins + losses) / trials
 /// ```
 ///
-/// The test is McNemar's (1947), exact and given how many trials differ, and so is the interval
-/// (Clopper & Pearson 1934).
+/// The test is McNemar's (1947). Test and interval (Clopper & Pearson 1934) are exact, given the number of trials
+/// that differ.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PairedShare {
-    /// What is asked.
+    /// The measure.
     pub measure: Measure,
-    /// Trials that have both answers.
+    /// Number of trials with both answers.
     pub trials: usize,
-    /// Those in which the first answer is yes.
+    /// Number of trials with yes as the first answer.
     pub first: usize,
-    /// Those in which the second is.
+    /// Number of trials with yes as the second answer.
     pub second: usize,
-    /// Those in which the second alone is the better one.
+    /// Number of trials in which only the second answer is the better one.
     pub wins: usize,
-    /// Those in which the first alone is.
+    /// Number of trials in which only the first answer is the better one.
     pub losses: usize,
-    /// `(wins - losses) / trials`, none without trials.
+    /// `(wins - losses) / trials`; `None` without trials.
     pub difference: Option<f64>,
-    /// 95 per cent interval of the difference, none where no trial differs.
+    /// 95 per cent interval of the difference; `None` where no trial differs.
     pub interval: Option<[f64; 2]>,
-    /// How likely at most so few wins or losses are, if either is as likely.
+    /// p-value: probability of a split at least as uneven, if wins and losses are equally likely.
     pub p: f64,
 }
 
 impl PairedShare {
-    /// Pairs of a first and a second answer.
+    /// From pairs of a first and a second answer.
     pub fn new(measure: Measure, pairs: &[(bool, bool)]) -> Self {
         let count = |is: &dyn Fn(bool, bool) -> bool| pairs.iter().filter(|p| is(p.0, p.1)).count();
         let wanted = measure.is_yes_better();
@@ -65,7 +65,7 @@ impl PairedShare {
     }
 }
 
-/// None where there are neither.
+/// `None` where there are neither wins nor losses.
 fn clopper_pearson(wins: usize, losses: usize) -> Option<[f64; 2]> {
     if wins + losses == 0 {
         return None;

@@ -4,23 +4,23 @@ use crate::paired::measures::Measure;
 use crate::trials::record::Record;
 use crate::trials::scored::Scored;
 
-/// A trial of which two results say something else.
+/// A trial that two results answer differently.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Turned {
-    /// Its number in the campaign.
+    /// Its index in the campaign.
     pub task: usize,
     /// Its seed.
     pub seed: u64,
-    /// What was hidden, or where in the population it lies.
+    /// The hidden effects, or the corner of the population.
     pub about: String,
-    /// In which the second result is the better one.
+    /// Measures in which the second result is better.
     pub better: Vec<Measure>,
-    /// In which the first is.
+    /// Measures in which the first result is better.
     pub worse: Vec<Measure>,
 }
 
 impl Turned {
-    /// None where both say the same.
+    /// `None` where both results agree.
     pub(super) fn new(first: &Record, second: &Record) -> Option<Self> {
         let measures_that_turn = |better: bool| {
             let is = |measure: &Measure| match (measure.of(first), measure.of(second)) {

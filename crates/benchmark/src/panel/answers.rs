@@ -4,20 +4,20 @@ use serde::{Deserialize, Serialize};
 /// The answers of the diagnosis and of two baselines to the logs of one trial.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answers {
-    /// The diagnosis; in words why it refuses the logs.
+    /// The diagnosis, or in words why it rejects the logs.
     pub diagnosis: Result<Diagnosis, String>,
-    /// How well each predicts the torque of a log that it has not seen.
+    /// Torque errors of all models on a held-out log.
     pub held_out: HeldOut,
     /// Effects that the two questions name.
     pub two_questions: Vec<EffectAt>,
     /// Effects that plain least squares names.
     pub least_squares: Vec<EffectAt>,
-    /// What it cost.
+    /// Times and memory.
     pub costs: Costs,
 }
 
-/// RMS error of predicted torque on a held-out log (N m or N), by joint in the order of the sheet,
-/// while the joint moves. None where it could not be measured.
+/// RMS torque error on a held-out log (N m or N) while the joint moves, by joint in the order of the sheet; `None`
+/// where it could not be measured.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct HeldOut {
     /// Of the robot as described.
@@ -26,14 +26,14 @@ pub struct HeldOut {
     pub extended: Option<Vec<Option<f64>>>,
     /// Of plain least squares.
     pub least_squares: Option<Vec<Option<f64>>>,
-    /// Of what the two questions fit.
+    /// Of the fit of the two questions.
     pub two_questions: Option<Vec<Option<f64>>>,
 }
 
-/// What a trial cost, in seconds by the wall clock.
+/// Wall-clock times (s) and memory of a trial.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Costs {
-    /// Making its logs; 0 where a store had them.
+    /// Making its logs; 0 where a store had them already.
     pub logs_s: f64,
     /// The diagnosis.
     pub diagnosis_s: f64,
@@ -41,6 +41,6 @@ pub struct Costs {
     pub least_squares_s: f64,
     /// The two questions.
     pub two_questions_s: f64,
-    /// Largest memory of the process while it diagnosed (MB).
+    /// Peak memory of the process during the diagnosis (MB).
     pub peak_memory_mb: Option<f64>,
 }

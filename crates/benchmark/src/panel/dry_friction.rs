@@ -7,8 +7,8 @@ use crate::panel::place::place;
 
 /// Levels of dry friction against positive and negative motion (N·m or N).
 ///
-/// Dry friction of several causes at one joint adds up, and every finding of dry friction there states the
-/// sum: nothing in the logs tells which cause a level is of.
+/// Dry friction of several causes at one joint adds up, and every finding of dry friction there states the sum. The
+/// logs do not show which cause a level belongs to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct DryFriction {
     forward: f64,
@@ -16,7 +16,7 @@ pub(super) struct DryFriction {
 }
 
 impl DryFriction {
-    /// Of all causes at the joint of `cause` but itself.
+    /// The friction of all other causes at the joint of `cause`.
     pub fn beside(cause: &TrueCause, all: &[TrueCause]) -> Self {
         let is_beside = |other: &&TrueCause| {
             place(other) != place(cause)
@@ -30,7 +30,7 @@ impl DryFriction {
         })
     }
 
-    /// Of one cause.
+    /// The friction of one cause.
     fn of(truth: &Truth) -> Self {
         let value = |name: &str| truth.parameters.get(name).copied().unwrap_or(0.0);
         let [forward, backward] = match truth.effect {
@@ -48,8 +48,8 @@ impl DryFriction {
         0.5 * (self.forward + self.backward)
     }
 
-    /// What a finding of `truth` states rightly, with this friction at the joint and the estimates' nominal
-    /// level:
+    /// The parameters that a correct finding of `truth` states, with this friction at the joint and the nominal level
+    /// of the estimates:
     ///
     /// ```text
     /// level = own + beside,   share = share_own own / (own + beside + nominal)

@@ -7,30 +7,30 @@ use crate::panel::dry_friction::DryFriction;
 use crate::panel::judged_finding::BaselineClaim;
 use crate::panel::place::place;
 
-/// A cause that is in the data, and who names it.
+/// A cause in the data, and the methods that name it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct JudgedCause {
     /// The effect and its place.
     #[serde(flatten, deserialize_with = "stored::place")]
     pub at: EffectAt,
-    /// Why it is there.
+    /// Why it is in the data.
     pub role: CauseRole,
-    /// What an oracle sees of it.
+    /// Its strength, as an oracle measures it.
     pub strength: Strength,
-    /// The finding that names it, counted from 0.
+    /// Index of the finding that names it.
     pub finding: Option<usize>,
-    /// The first finding that names it or a rival of which it is.
+    /// Index of the first finding that is the cause or has it as a rival.
     pub one_of: Option<usize>,
     /// Whether the two questions name it.
     pub two_questions: bool,
     /// Whether plain least squares names it.
     pub least_squares: bool,
-    /// Its parameters, levels of dry friction with all that is at the joint.
+    /// Its parameters; levels of dry friction are those of all causes at the joint.
     pub sizes: Vec<Size>,
 }
 
 impl JudgedCause {
-    /// One of `all` causes, beside what is found and what the baselines claim.
+    /// One of `all` causes, compared with the findings and the claims of the baselines.
     pub(super) fn new(
         (cause, all): (&TrueCause, &[TrueCause]),
         findings: &[&Finding],
@@ -58,7 +58,7 @@ impl JudgedCause {
         }
     }
 
-    /// Whether an oracle sees it and it is above the floor.
+    /// Whether an oracle detects it and it is above the floor.
     pub fn visible(&self) -> bool {
         self.strength.visible()
     }
@@ -69,8 +69,8 @@ impl JudgedCause {
     }
 }
 
-/// A strength that JSON can hold: an infinite one, of a cause without noise, becomes the largest
-/// number; one that is not a number becomes zero.
+/// A strength that JSON can hold. An infinite strength, of a cause without noise, becomes the largest number; NaN
+/// becomes zero.
 pub(super) fn finite(strength: Strength) -> Strength {
     let to_finite = |number: f64| if number.is_nan() { 0.0 } else { number.clamp(0.0, f64::MAX) };
     Strength {

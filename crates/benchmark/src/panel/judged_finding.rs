@@ -10,14 +10,14 @@ pub struct JudgedFinding {
     /// The effect and its place.
     #[serde(flatten, deserialize_with = "stored::place")]
     pub at: EffectAt,
-    /// Share of the nominal residual's power that goes with it.
+    /// Share of the nominal residual's power that the finding explains.
     #[serde(deserialize_with = "stored::number")]
     pub share_explained: f64,
-    /// What it may as well be.
+    /// Effects that explain the logs as well.
     #[serde(deserialize_with = "stored::places")]
     pub not_separable_from: Vec<EffectAt>,
-    /// Whether the cause is in the data, or one of its rivals is, or it is a rival of a finding
-    /// whose cause is.
+    /// Whether the finding is true: it or one of its rivals is in the data, or it is a rival of a finding that is in
+    /// the data.
     pub is_true: bool,
 }
 
@@ -27,12 +27,12 @@ pub struct BaselineClaim {
     /// The effect and its place.
     #[serde(flatten, deserialize_with = "stored::place")]
     pub at: EffectAt,
-    /// Whether it is in the data, however small.
+    /// Whether the effect is in the data, of any size.
     pub is_true: bool,
 }
 
 impl JudgedFinding {
-    /// The findings of a diagnosis, the largest share first, beside what is in the data.
+    /// The findings of a diagnosis, the largest share first, compared with the causes in the data.
     pub(super) fn all(findings: &[&Finding], causes: &[EffectAt]) -> Vec<Self> {
         let own: Vec<&EffectAt> =
             findings.iter().map(|f| &f.at).filter(|at| causes.contains(at)).collect();
@@ -53,14 +53,14 @@ impl JudgedFinding {
         findings.iter().map(judge).collect()
     }
 
-    /// Its share as a weight: none below zero, and none that is no number.
+    /// Its share as a weight; zero where the share is negative or NaN.
     pub fn weight(&self) -> f64 {
         if self.share_explained.is_finite() { self.share_explained.max(0.0) } else { 0.0 }
     }
 }
 
 impl BaselineClaim {
-    /// What a baseline names, each once, beside what is in the data.
+    /// The effects that a baseline names, each once, compared with the causes in the data.
     pub(super) fn all(names: &[EffectAt], causes: &[EffectAt]) -> Vec<Self> {
         let mut seen = BTreeSet::new();
         let new = names.iter().filter(|at| seen.insert(at.words()));

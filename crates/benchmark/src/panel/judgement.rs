@@ -13,16 +13,16 @@ use crate::statistics::rate::Fraction;
 /// How well one trial of a population was answered.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Judgement {
-    /// The seed that everything was drawn from.
+    /// The seed of all random draws.
     pub seed: u64,
-    /// Where in the population it lies.
+    /// Its corner of the population.
     pub corner: Corner,
-    /// Whether all that is in the data is known.
+    /// Whether all causes in the data are known.
     pub knowledge: Knowledge,
     /// The verdict over all joints.
     #[serde(deserialize_with = "stored::verdict")]
     pub verdict: Verdict,
-    /// Why the diagnosis refuses the logs, where it does; it then names nothing.
+    /// Why the diagnosis rejects the logs, if it does; it then names nothing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refused: Option<String>,
     /// The findings, the largest share of the gap first.
@@ -31,18 +31,18 @@ pub struct Judgement {
     pub causes: Vec<JudgedCause>,
     /// Effects of no catalogue that are in the data.
     pub strangers: Vec<TrueStranger>,
-    /// What the two questions name.
+    /// Effects that the two questions name.
     pub two_questions: Vec<BaselineClaim>,
-    /// What plain least squares names.
+    /// Effects that plain least squares names.
     pub least_squares: Vec<BaselineClaim>,
-    /// Torque of a log that took no part.
+    /// Torque errors on a held-out log.
     pub prediction: Prediction,
-    /// What it cost.
+    /// Times and memory.
     pub costs: Costs,
 }
 
 impl Judgement {
-    /// Scores the answers to a trial by what is true of it.
+    /// Judges the answers to a trial by its truth.
     pub fn new(sheet: &TruthSheet, answers: &Answers) -> Self {
         let diagnosis = answers.diagnosis.as_ref();
         let mut findings: Vec<&Finding> =
@@ -73,17 +73,17 @@ impl Judgement {
         }
     }
 
-    /// The causes that an oracle sees.
+    /// The causes that an oracle detects.
     pub fn visible(&self) -> impl Iterator<Item = &JudgedCause> {
         self.causes.iter().filter(|cause| cause.visible())
     }
 
-    /// Whether something that an oracle sees is in the data.
+    /// Whether the data contain something that an oracle detects.
     pub fn hides(&self) -> bool {
         self.visible().next().is_some() || self.hides_strangers()
     }
 
-    /// Share of the findings that are true; none where the data hold causes that nobody knows.
+    /// Share of the findings that are true; `None` where the data have unknown causes.
     pub fn precision(&self) -> Option<Fraction> {
         self.of_findings(|_| 1.0)
     }
@@ -98,15 +98,14 @@ impl Judgement {
         Fraction::of(self.visible().map(|cause| (cause.is_named(), 1.0)))
     }
 
-    /// The same, each cause weighted by its torque, at most that of its joints: a nominal friction
-    /// that is a hundred times too large weighs as much as the whole effort.
+    /// The same, each cause weighted by its torque, at most that of its joints. A nominal friction that is a hundred
+    /// times too large thus weighs as much as the whole effort.
     pub fn recall_by_torque(&self) -> Fraction {
         let weight = |cause: &JudgedCause| cause.strength.torque.min(1.0);
         Fraction::of(self.visible().map(|cause| (cause.is_named(), weight(cause))))
     }
 
-    /// Share of a baseline's names that are true; none where the data hold causes that nobody
-    /// knows.
+    /// Share of a baseline's names that are true; `None` where the data have unknown causes.
     pub(crate) fn precision_of(&self, claims: &[BaselineClaim]) -> Option<Fraction> {
         self.is_all_known().then(|| Fraction::of(claims.iter().map(|claim| (claim.is_true, 1.0))))
     }
@@ -116,9 +115,8 @@ impl Judgement {
         Fraction::of(self.visible().map(|cause| (names(cause), 1.0)))
     }
 
-    /// Whether the verdict calls a visible gap closed: "consistent", or "explained" although a
-    /// visible cause has no name or an effect outside the catalogue is visible. None where an
-    /// oracle sees no cause.
+    /// Whether the verdict calls a visible gap closed: "consistent", or "explained" although a visible cause is not
+    /// named or an effect outside the catalogue is visible. `None` where an oracle detects no cause.
     pub fn false_assurance(&self) -> Option<bool> {
         let misses = || self.visible().any(|cause| !cause.is_named()) || self.hides_strangers();
         self.hides().then(|| match self.verdict {
@@ -128,15 +126,15 @@ impl Judgement {
         })
     }
 
-    /// Whether the diagnosis names an absent cause or leaves structure open in data without a
-    /// cause. None where an oracle sees a cause, or where not all causes are known.
+    /// Whether the diagnosis names a cause or leaves structure open in data without a cause. `None` where an oracle
+    /// detects a cause, or where not all causes are known.
     pub fn false_alarm(&self) -> Option<bool> {
         let alarm = || self.names_falsely() || self.is_open();
         (self.is_all_known() && !self.hides()).then(alarm)
     }
 
-    /// Whether every visible cause is named and, where all causes are known, no false one. None for
-    /// logs whose causes are unknown.
+    /// Whether every visible cause is named and, where all causes are known, no false one is. `None` for logs whose
+    /// causes are unknown.
     pub fn right(&self) -> Option<bool> {
         let right = || self.visible().all(JudgedCause::is_named);
         match self.knowledge {
@@ -156,12 +154,12 @@ impl Judgement {
         self.is_all_known() && self.findings.iter().any(|finding| !finding.is_true)
     }
 
-    /// Whether all that is in the data is known.
+    /// Whether all causes in the data are known.
     pub fn is_all_known(&self) -> bool {
         self.knowledge == Knowledge::Whole
     }
 
-    /// Samples of a joint over all logs.
+    /// Number of samples of a joint over all logs.
     pub fn samples(&self) -> f64 {
         (self.corner.rate_hz * self.corner.length_s).round()
     }

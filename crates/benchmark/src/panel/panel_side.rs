@@ -9,19 +9,19 @@ use crate::panel::judgement::Judgement;
 /// Step of a position reading above which an encoder is coarse (rad or m).
 const COARSE: f64 = 0.0005;
 
-/// Trials of a population that are alike in one thing.
+/// Trials of a population that have one property in common.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct PanelSide {
-    /// Place of the thing, and of this kind of it, among the rows of a table.
+    /// Indices of the property and of its value among the rows of a table.
     order: [usize; 2],
-    /// What they are alike in; nothing for all trials.
+    /// The common property; empty for all trials.
     thing: &'static str,
-    /// How they are.
+    /// Its value.
     kind: String,
 }
 
 impl PanelSide {
-    /// Judgements by side: all of them, then by each thing in turn. A trial is in one side of each.
+    /// Judgements by side: all of them, then by each property in turn. For each property a trial is in one side.
     pub(crate) fn by_side(judgements: &[Judgement]) -> Vec<(Self, Vec<&Judgement>)> {
         let mut sides: BTreeMap<Self, Vec<&Judgement>> = BTreeMap::new();
         for judgement in judgements {
@@ -32,7 +32,7 @@ impl PanelSide {
         sides.into_iter().collect()
     }
 
-    /// What they are alike in; nothing for all trials.
+    /// The common property; empty for all trials.
     pub fn thing(&self) -> &'static str {
         self.thing
     }
@@ -60,7 +60,7 @@ impl PanelSide {
     }
 }
 
-/// Least counts of the classes.
+/// Lower ends of the classes.
 const CAUSES: &[usize] = &[0, 1, 2, 4, 8];
 const LOGS: &[usize] = &[0, 2, 4];
 
@@ -73,7 +73,7 @@ fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
     all.iter().map(|one| name(*one)).collect()
 }
 
-/// A name and its place among the known ones; others follow.
+/// Index of a name among the known ones, and the name; unknown names follow.
 fn place(name: &str, known: &[&str]) -> (usize, String) {
     let rank = known.iter().position(|other| *other == name);
     (rank.unwrap_or(known.len()), name.to_owned())

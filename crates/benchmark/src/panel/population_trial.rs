@@ -16,10 +16,10 @@ use crate::panel::judgement::Judgement;
 use crate::panel::peak_memory::{peak_mb, restart_peak};
 use crate::trial_folder::read_runs;
 
-/// A judged trial, and what was wrong with its entry in the store.
+/// A judged trial, and the entry of the store that had to be replaced for it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judged {
-    /// The score.
+    /// The judgement.
     pub judgement: Judgement,
     /// The entry of the store that was made again.
     pub remade: Option<Remade>,
@@ -33,7 +33,7 @@ pub struct Judged {
 ///                           \--> sheet.json ------------------------- opened last -/
 /// ```
 ///
-/// Logs that are simulated come from the store where there is one; all others are made in `folder`.
+/// Simulated logs come from the store where there is one; all others are made in `folder`.
 ///
 /// # Errors
 ///
@@ -66,7 +66,7 @@ pub fn run(
     Ok(Judged { judgement, remade })
 }
 
-/// What diagnosis and baselines say, from the nominal model and the logs alone.
+/// The answers of diagnosis and baselines, from the nominal model and the logs alone.
 fn answers(folder: &Path, logs_s: f64) -> Result<Answers, BenchmarkError> {
     let robot = nominal(folder)?;
     let rate_hz = robot.control.rate_hz;
@@ -113,7 +113,7 @@ fn answers(folder: &Path, logs_s: f64) -> Result<Answers, BenchmarkError> {
     })
 }
 
-/// The answer of a diagnosis, or in words why it has none. A panic counts as no answer.
+/// The answer of a diagnosis, or in words why there is none. A panic counts as no answer.
 fn catch_panic(
     diagnose: impl FnOnce() -> Result<DiagnosisRun, DiagnosisError>,
 ) -> Result<DiagnosisRun, String> {

@@ -3,7 +3,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::panel::answers::HeldOut;
 
-/// Errors of torque on a log that took no part, over the torque of the trial.
+/// Torque errors on a held-out log, relative to the torque of the trial.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Prediction {
     /// Of the robot as described.
@@ -12,18 +12,18 @@ pub struct Prediction {
     pub extended: Option<RelativeError>,
     /// Of plain least squares.
     pub least_squares: Option<RelativeError>,
-    /// Of what the two questions fit.
+    /// Of the fit of the two questions.
     pub two_questions: Option<RelativeError>,
 }
 
-/// Errors of torque over the RMS of the effort of their joints.
+/// Torque errors over the RMS of the effort of their joints.
 ///
 /// ```text
 /// joints_j = RMS(error_j while j moves) / RMS(effort_j),   all = sqrt(mean over j of joints_j^2)
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RelativeError {
-    /// Joint by joint; none of a joint without effort or motion.
+    /// By joint; `None` for a joint without effort or motion.
     pub joints: Vec<Option<f64>>,
     /// Over all joints.
     #[serde(deserialize_with = "stored::number")]
@@ -31,7 +31,7 @@ pub struct RelativeError {
 }
 
 impl Prediction {
-    /// Part of the nominal error by which an extended robot may miss it and not be worse.
+    /// Share of the nominal error by which an extended robot may exceed it without counting as worse.
     pub const MARGIN: f64 = 0.01;
 
     pub(super) fn new(held_out: &HeldOut, torque_rms: &[f64]) -> Self {
@@ -52,7 +52,7 @@ impl Prediction {
         Some(self.ratio(self.extended.as_ref())? > 1.0 + Self::MARGIN)
     }
 
-    /// An error over that of the robot as described; infinite for a prediction that is no number.
+    /// An error over that of the robot as described; infinite where the prediction is NaN.
     pub fn ratio(&self, of: Option<&RelativeError>) -> Option<f64> {
         let nominal = self.nominal.as_ref()?.all;
         let usable = nominal.is_finite() && nominal > 0.0;
@@ -62,7 +62,7 @@ impl Prediction {
 }
 
 impl RelativeError {
-    /// None where no joint has an effort and moves.
+    /// `None` where no joint has an effort and moves.
     fn new(errors: &[Option<f64>], torque_rms: &[f64]) -> Option<Self> {
         let relative = |(error, rms): (&Option<f64>, &f64)| {
             error.filter(|_| rms.is_finite() && *rms > 0.0).map(|error| error / rms)

@@ -3,15 +3,15 @@ use learner::ModelKind;
 
 use crate::paper::learning_errors::{LearningErrors, ModelErrors};
 
-/// The largest error that counts as near zero, and the most that one may lie above another and
-/// still be close to it: what cannot be told from zero in the bars of figure 2.
+/// Largest error that counts as near zero, and largest excess of an error that counts as close to another: the bars
+/// of figure 2 do not show smaller values.
 const NEAR_ZERO: f64 = 0.01;
 
-/// Share by which a model may be worse than one that it competes with.
+/// Share by which a model may be worse than another and count as competitive.
 const COMPETITIVE: f64 = 0.1;
 
-/// What Nguyen-Tuong & Peters 2010 say about figure 2, judged by the errors, and what is said of
-/// the named effects.
+/// The claims of Nguyen-Tuong & Peters 2010 about figure 2, and the claims about the named effects, judged by the
+/// errors.
 pub fn learning_claims(errors: &LearningErrors) -> Vec<Claim> {
     let judge = Judge { joints: &errors.joints };
     let (rbd, gp, named) = (ModelKind::Rbd.name(), ModelKind::Gp.name(), ModelKind::Named.name());
@@ -54,13 +54,13 @@ pub fn learning_claims(errors: &LearningErrors) -> Vec<Claim> {
     ]
 }
 
-/// Cases joint by joint.
+/// Makes cases joint by joint.
 struct Judge<'a> {
     joints: &'a [String],
 }
 
 impl Judge<'_> {
-    /// The errors of a model, each of which may be as large as `limit`.
+    /// Cases for the errors of a model, each at most `limit`.
     fn within(&self, errors: &[ModelErrors], model: &str, limit: f64) -> Vec<ClaimCase> {
         let joints = self.joints.iter().enumerate();
         joints
@@ -69,7 +69,7 @@ impl Judge<'_> {
             .collect()
     }
 
-    /// The errors of some models, each of which may be as large as that of `other` allows.
+    /// Cases for the errors of some models, each limited by the error of `other`.
     fn beside(
         &self,
         errors: &[ModelErrors],

@@ -3,38 +3,38 @@ use learner::{ModelKind, Samples, TorqueScore};
 use logs::Prepared;
 use serde::{Deserialize, Serialize};
 
-/// What came of figure 2: the errors of every model, data by data.
+/// The results of figure 2: the errors of every model on each data set.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LearningErrors {
     /// Name of the robot.
     pub robot: String,
-    /// Names of the joints, in the order of all that is told joint by joint.
+    /// Names of the joints, in the order of all values by joint.
     pub joints: Vec<String>,
-    /// Samples that a Gaussian process learned from.
+    /// Number of samples for a Gaussian process.
     pub points: usize,
-    /// Samples that the errors are measured on, of each data.
+    /// Number of samples for the errors on each data set.
     pub test_points: usize,
-    /// On the data that rigid bodies describe.
+    /// Errors on the data that rigid bodies describe.
     pub simulated: Vec<ModelErrors>,
-    /// On the data that they do not.
+    /// Errors on the data that rigid bodies do not describe.
     pub real: Vec<ModelErrors>,
-    /// Of the models of the real data, on a motion outside what they were learned from.
+    /// Errors of the models of the real data, on a motion outside their training data.
     pub outside: Vec<ModelErrors>,
 }
 
-/// How well a model predicts torques that it was not learned from.
+/// Errors of a model on held-out torques.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ModelErrors {
     /// Name of the model.
     pub model: String,
-    /// Mean square error over the variance of the torque, by joint; none where that is constant.
+    /// Mean square error over the variance of the torque, by joint; `None` where the torque is constant.
     pub nmse: Vec<Option<f64>>,
     /// Root mean square error, by joint (N m or N).
     pub rmse_nm: Vec<f64>,
 }
 
 impl ModelErrors {
-    /// The errors of [`PAPER_MODELS`] on at most so many samples, spread evenly.
+    /// The errors of [`PAPER_MODELS`] on at most `points` samples, spread evenly.
     pub(super) fn of(models: &Learned, test: &Prepared, points: usize) -> Vec<Self> {
         let samples = Samples::new(test).thin(points);
         let known = PAPER_MODELS.into_iter().filter_map(|kind| models.model(kind));
@@ -48,8 +48,7 @@ impl ModelErrors {
 }
 
 impl LearningErrors {
-    /// How many times the error of the named effects the least error of a Gaussian process is,
-    /// outside what was learned from, at a joint.
+    /// Least error of a Gaussian process over the error of the named effects, outside the training data, at a joint.
     pub fn outside_gain(&self, joint: usize) -> Option<f64> {
         let of = |kind: ModelKind| {
             let errors = self.outside.iter().find(|errors| errors.model == kind.name())?;

@@ -14,11 +14,11 @@ use crate::error::BenchmarkError;
 use crate::paper::figure_spec::{DataSpec, FigureScenario, FigureSpec, LearningFigureSpec};
 use crate::paper::learning_errors::ModelErrors;
 
-/// What the rigid bodies of the figure are: the links and, as rigid as they, the rotors.
+/// The rigid bodies of the figure: the links and the rotors.
 const RIGID_BODIES: ColumnSet = ColumnSet { rotor: true, ..ColumnSet::INERTIAL };
 
-/// Figure 2 of Nguyen-Tuong & Peters 2010: an arm that rigid bodies describe and one that they do
-/// not, and what is learned of each.
+/// Figure 2 of Nguyen-Tuong & Peters 2010: an arm that rigid bodies describe, an arm that they do not describe, and
+/// the models learned of each.
 ///
 /// ```text
 /// learn.train, learn.regression --diagnose, learn--> models
@@ -31,16 +31,16 @@ pub struct LearningFigure {
     resolved: String,
 }
 
-/// Which of the data of figure 2.
+/// The two data sets of figure 2.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PaperData {
-    /// Those that rigid bodies describe.
+    /// The data that rigid bodies describe.
     Simulated,
-    /// Those that they do not.
+    /// The data that rigid bodies do not describe.
     Real,
 }
 
-/// The arm that some of the data come from.
+/// The arm that a data set comes from.
 #[derive(Debug, Clone)]
 pub struct PaperPlant {
     data: PaperData,
@@ -58,24 +58,24 @@ impl PaperData {
         }
     }
 
-    /// The scenario of its arm, beside the scenario that names it.
+    /// Path of the scenario of its arm, relative to the scenario that names it.
     fn scenario(self) -> PathBuf {
         Path::new("logs").join(self.name()).join("scenario.toml")
     }
 }
 
 impl PaperPlant {
-    /// Which data it gives.
+    /// The data set of the arm.
     pub fn data(&self) -> PaperData {
         self.data
     }
 
-    /// Its scenario, with the runs that the figure needs and no other.
+    /// The scenario of the arm, with only the runs that the figure needs.
     pub fn plant(&self) -> &Scenario {
         &self.plant
     }
 
-    /// Where the scenario of the arm was read.
+    /// The file of the arm's scenario.
     pub fn file(&self) -> &Path {
         &self.file
     }
@@ -87,15 +87,15 @@ impl PaperPlant {
 }
 
 impl LearningFigure {
-    /// Name of the run outside what is learned from.
+    /// Name of the run outside the training data.
     pub const OUTSIDE: &str = "outside";
 
-    /// Reads the figure from the scenario of one; `seed` takes the place of those of the arms.
+    /// Reads the figure from its scenario; `seed` replaces the seeds of the arms.
     ///
     /// # Errors
     ///
-    /// [`ExperimentError::Document`](experiment::ExperimentError::Document), at the value at fault, and what the scenario of an arm is
-    /// refused for.
+    /// [`ExperimentError::Document`](experiment::ExperimentError::Document), at the value at fault, and the errors of
+    /// the scenario of an arm.
     pub fn from_document(document: &Document, seed: Option<u64>) -> Result<Self, BenchmarkError> {
         let FigureScenario { figure: FigureSpec::Learning(spec) } = document.parse()? else {
             let message = "another figure, figure.learning was expected";
@@ -116,7 +116,7 @@ impl LearningFigure {
         &self.resolved
     }
 
-    /// What it says.
+    /// The figure as it was written.
     pub fn spec(&self) -> &LearningFigureSpec {
         &self.spec
     }
@@ -131,7 +131,7 @@ impl LearningFigure {
         &self.plants[1].loaded.robot
     }
 
-    /// The runs that causes are found in and models learned from.
+    /// The runs in which causes are found and from which models are learned.
     pub fn learning_runs(&self) -> Vec<&str> {
         let mut names: Vec<&str> = Vec::new();
         for name in self.spec.learn.train.iter().chain(&self.spec.learn.regression) {
@@ -142,13 +142,12 @@ impl LearningFigure {
         names
     }
 
-    /// The runs that the errors are measured on, apart from that outside.
+    /// The runs for the errors, without the run outside.
     pub fn test(&self) -> Vec<&str> {
         self.spec.test.iter().map(String::as_str).collect()
     }
 
-    /// Share of the motion outside in which a joint is where no motion of the training takes it,
-    /// by joint.
+    /// Share of the motion outside in which a joint is beyond its positions in the training, by joint.
     pub fn outside_share(&self) -> Vec<f64> {
         let runs = self.plants[1].plant.runs();
         let joints = self.robot().joint_count();
@@ -169,11 +168,11 @@ impl LearningFigure {
         (0..joints).map(share).collect()
     }
 
-    /// Learns [`PAPER_MODELS`] from the logs of an arm, of which a diagnosis has found `named`.
+    /// Learns [`PAPER_MODELS`] from the logs of an arm, in which a diagnosis has found `named`.
     ///
     /// # Errors
     ///
-    /// What the learner refuses.
+    /// The errors of the learner.
     pub fn learn(
         &self,
         plant: &PaperPlant,
@@ -184,17 +183,16 @@ impl LearningFigure {
         Ok(Learned::of(&self.lesson(plant), logs, Some(named), progress)?)
     }
 
-    /// The models of an arm in a folder that they were saved to.
+    /// Reads the models of an arm from the folder in which they were saved.
     ///
     /// # Errors
     ///
-    /// As [`Learned::load`].
+    /// The errors of [`Learned::load`].
     pub fn load(&self, plant: &PaperPlant, folder: &Path) -> Result<Learned, BenchmarkError> {
         Ok(Learned::load_kinds(&PAPER_MODELS, &plant.loaded.robot, folder)?)
     }
 
-    /// The errors of models on logs that they were not learned from, behind the low pass that
-    /// those had from which they were.
+    /// The errors of models on held-out logs, after the low-pass of their training data.
     ///
     /// # Errors
     ///
@@ -222,7 +220,7 @@ impl LearningFigure {
     }
 }
 
-/// The positions of a motion, a hundred times a second.
+/// The positions of a motion, at 100 Hz.
 fn positions(motion: &Motion) -> impl Iterator<Item = Vec<f64>> {
     let last = (100.0 * motion.duration_s()) as usize;
     (0..=last).map(|k| motion.at(0.01 * k as f64).q)
@@ -233,7 +231,7 @@ fn key(name: &str) -> KeyPath {
     KeyPath::root().key("figure").key("learning").key(name)
 }
 
-/// The scenario with its arms beside it.
+/// The scenario with its arms in files beside it.
 fn resolve(document: &Document, spec: &LearningFigureSpec) -> String {
     let beside = |data: PaperData| DataSpec { plant: data.scenario(), settings: Vec::new() };
     let mut spec = LearningFigureSpec {
@@ -283,7 +281,7 @@ impl Checker<'_> {
         }
     }
 
-    /// The arm of some data, with the runs that are needed of it.
+    /// The arm of a data set, with the runs that the figure needs.
     fn plant(&self, data: PaperData, spec: &DataSpec) -> Result<PaperPlant, BenchmarkError> {
         let path = key(data.name());
         let (mut said, file) = document_at(self.document, &path.key("plant"), &spec.plant)?;
@@ -313,7 +311,7 @@ impl Checker<'_> {
         Ok(PaperPlant { data, plant, file, loaded })
     }
 
-    /// The run outside what is learned from, after runs that are as long in coming to rest.
+    /// The run outside the training data, with the lead-in of the last other run.
     fn outside(&self, robot: &Robot, others: &[RunSpec]) -> Result<RunSpec, BenchmarkError> {
         let path = key("outside");
         motion_at(self.document, &path, &self.spec.outside, robot)?;

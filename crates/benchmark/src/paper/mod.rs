@@ -1,4 +1,4 @@
-//! The figures of Nguyen-Tuong & Peters 2010 on the project's own arm, and whether the paper's claims hold there.
+//! The figures of Nguyen-Tuong & Peters 2010 for the project's own arm, and whether the paper's claims hold there.
 
 pub(crate) mod figure_spec;
 pub(crate) mod learning_claims;

@@ -19,7 +19,7 @@ pub struct PredictionTimeFigure {
 const MOST_POINTS: usize = 100_000;
 
 impl PredictionTimeFigure {
-    /// Reads the figure from the scenario of one; `seed` takes the place of its own.
+    /// Reads the figure from its scenario; `seed` replaces the seed there.
     ///
     /// # Errors
     ///
@@ -70,7 +70,7 @@ impl PredictionTimeFigure {
         &self.loaded
     }
 
-    /// Where the robot was read.
+    /// The file of the robot.
     pub fn robot_file(&self) -> &Path {
         &self.file
     }

@@ -1,17 +1,17 @@
 use experiment::{Claim, ClaimCase, Scope};
 
-/// The time of one prediction with a number of training points.
+/// The time of one prediction for a number of training points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelTime {
     /// Name of the model.
     pub model: String,
-    /// Training points.
+    /// Number of training points.
     pub points: usize,
     /// Time of one prediction for all joints (us).
     pub microseconds: f64,
 }
 
-/// Share by which a time may be longer than another and count as alike.
+/// Share by which a time may exceed another and count as equal.
 const ALIKE: f64 = 0.25;
 
 /// The models of figure 1, the kernel as equation 10 evaluates it.
@@ -19,8 +19,8 @@ const RBD: &str = "rbd";
 const GP: &str = "gp";
 const GP_RBD: &str = "gp-rbd";
 
-/// What Nguyen-Tuong & Peters 2010 say about figure 1, judged by the times; `kernel` is the name
-/// of the rigid-body kernel as equation 10 evaluates it.
+/// The claims of Nguyen-Tuong & Peters 2010 about figure 1, judged by the times. `kernel` is the name of the
+/// rigid-body kernel as equation 10 evaluates it.
 pub fn time_claims(times: &[ModelTime], kernel: &str) -> Vec<Claim> {
     let below = |model: &str, others: &[&str], factor: f64| -> Vec<ClaimCase> {
         others.iter().flat_map(|other| beside(times, model, other, factor)).collect()
@@ -45,7 +45,7 @@ pub fn time_claims(times: &[ModelTime], kernel: &str) -> Vec<Claim> {
     ]
 }
 
-/// The times of a model beside those of another, wherever both are known.
+/// Cases that compare the times of a model with those of another, wherever both are known.
 fn beside(times: &[ModelTime], model: &str, other: &str, factor: f64) -> Vec<ClaimCase> {
     let of = |name: &str, points: usize| {
         let time = times.iter().find(|time| time.model == name && time.points == points);

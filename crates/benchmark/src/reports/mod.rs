@@ -1,4 +1,4 @@
-//! What a campaign or a figure came to: pages, drawings, text, JSON.
+//! Results of a campaign or a figure as pages, drawings, text and JSON.
 
 pub(crate) mod paper;
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! What the tests of this folder share.
+//! Samples that the tests of this folder share.
 
 use pages::Provenance;
 use quick_xml::Reader;

@@ -2,18 +2,18 @@ use serde::Serialize;
 
 use crate::statistics::share::wilson;
 
-/// The part of the things of one trial for which something holds, each with a weight.
+/// The part of the items of one trial for which something holds, each item with a weight.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Fraction {
-    /// Weight of those for which it holds.
+    /// Weight of the items for which it holds.
     pub hits: f64,
-    /// Weight of all.
+    /// Weight of all items.
     pub of: f64,
-    /// How many they are.
+    /// Number of items.
     pub items: usize,
 }
 
-/// A part of the things of many trials, and what that says of all trials there could be.
+/// A rate over the items of many trials, as an estimate for all possible trials:
 ///
 /// ```text
 /// value = R = sum_i hits_i / sum_i of_i
@@ -21,23 +21,23 @@ pub struct Fraction {
 /// n     = min(items, R (1 - R) / V);   m where R is 0 or 1 or one trial is all there is
 /// ```
 ///
-/// What is in one trial hangs together, so a trial counts as one draw: `V` is the variance of the ratio
-/// over trials (Liang & Zeger 1986), and the 95 per cent interval is the score interval (Wilson 1927)
-/// for `n` independent things, as many as have that variance (Korn & Graubard 1998).
+/// Items of one trial are dependent, so that a trial counts as one draw. `V` is the variance of the ratio over trials
+/// (Liang & Zeger 1986). The 95 per cent interval is the score interval (Wilson 1927) for `n` independent items,
+/// where `n` gives the same variance (Korn & Graubard 1998).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Rate {
-    /// The part, none of nothing.
+    /// The rate; `None` without items.
     pub value: Option<f64>,
-    /// Things that were counted.
+    /// Number of items.
     pub items: usize,
-    /// Trials with any.
+    /// Number of trials with items.
     pub trials: usize,
     /// 95 per cent interval.
     pub interval: Option<[f64; 2]>,
 }
 
 impl Fraction {
-    /// Whether it holds for each of several things, and their weights.
+    /// The fraction of several items, each with whether it holds and its weight.
     pub(crate) fn of(things: impl Iterator<Item = (bool, f64)>) -> Self {
         things.fold(Self::default(), |sum, (holds, weight)| Self {
             hits: sum.hits + if holds { weight } else { 0.0 },
@@ -46,14 +46,14 @@ impl Fraction {
         })
     }
 
-    /// The part, none of nothing.
+    /// The fraction; `None` without weight.
     pub fn value(&self) -> Option<f64> {
         (self.of > 0.0).then(|| self.hits / self.of)
     }
 }
 
 impl Rate {
-    /// The rate over trials; those without any weight say nothing.
+    /// The rate over trials; trials without weight are left out.
     pub fn over(trials: impl Iterator<Item = Fraction>) -> Self {
         let trials: Vec<Fraction> = trials.filter(|fraction| fraction.of > 0.0).collect();
         let items = trials.iter().map(|fraction| fraction.items).sum();
@@ -72,7 +72,7 @@ impl Rate {
         Self { value: Some(rate), items, trials: trials.len(), interval }
     }
 
-    /// Value and interval in per cent, such as `95 % 76-99`; `-` of nothing.
+    /// Value and interval in per cent, such as `95 % 76-99`; `-` without items.
     pub fn words(&self) -> String {
         let (Some(value), Some([low, high])) = (self.value, self.interval) else {
             return "-".to_owned();

@@ -3,14 +3,14 @@ use serde::Serialize;
 /// 97.5th percentile of the normal distribution.
 const Z: f64 = 1.959_963_984_540_054;
 
-/// How many of how many, and what that says of all there could be.
+/// A count out of a number of cases, as an estimate for all possible cases.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Share {
-    /// How many.
+    /// Number of cases that count.
     pub count: usize,
-    /// Of how many.
+    /// Number of all cases.
     pub of: usize,
-    /// 95 per cent score interval (Wilson 1927) for the share, none where there were none:
+    /// 95 per cent score interval (Wilson 1927) for the share; `None` without cases:
     ///
     /// ```text
     /// (p + z²/2n ± z sqrt(p (1 - p) / n + z²/4n²)) / (1 + z²/n),   p = count / n, n = of
@@ -24,12 +24,12 @@ impl Share {
         Self { count, of, interval: (of > 0).then(|| wilson(count as f64, of as f64)) }
     }
 
-    /// The share of those for which `is` holds.
+    /// The share of the cases for which `is` holds.
     pub(crate) fn of<T>(all: &[T], is: impl Fn(&T) -> bool) -> Self {
         Self::new(all.iter().filter(|one| is(one)).count(), all.len())
     }
 
-    /// Share and interval in per cent, such as `95 % 76-99`; `-` where there were none.
+    /// Share and interval in per cent, such as `95 % 76-99`; `-` without cases.
     pub fn words(&self) -> String {
         let Some([low, high]) = self.interval else { return "-".to_owned() };
         let share = 100.0 * self.count as f64 / self.of as f64;
@@ -37,7 +37,7 @@ impl Share {
     }
 }
 
-/// The score interval of a share, for numbers that need not be whole.
+/// The score interval of a share; the numbers may be fractions.
 pub(crate) fn wilson(count: f64, n: f64) -> [f64; 2] {
     let (p, zz) = (count / n, Z * Z / n);
     let centre = p + 0.5 * zz;

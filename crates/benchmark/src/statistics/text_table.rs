@@ -1,9 +1,9 @@
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
-/// A table of texts, the first column of which says what a row is about.
+/// A table of texts, whose first column names the rows.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TextTable {
-    /// What it shows.
+    /// The title.
     pub title: String,
     /// The names of the columns.
     pub header: Vec<String>,
@@ -12,7 +12,7 @@ pub struct TextTable {
 }
 
 impl TextTable {
-    /// A table without lines, all but the first column to the right, `padding` before a column.
+    /// The table without lines. All columns except the first are right-aligned, with `padding` before each.
     pub fn text(&self, padding: u16) -> String {
         let mut table = Table::new();
         table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);

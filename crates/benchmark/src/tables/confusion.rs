@@ -3,17 +3,19 @@ use std::collections::BTreeSet;
 use crate::statistics::text_table::TextTable;
 use crate::tables::tally::{NOTHING, Tally, TallyRow, TrialGroup};
 
-/// What was named first for what was put in.
+/// The first finding against the injected effects.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Confusion {
     /// The columns: codes, and `nothing` at the end.
     pub named: Vec<&'static str>,
-    /// The rows: what was put in, its own column where it has one, and how often each was named.
+    /// The rows: the injected effects, the index of their own column if they have one, and how often each column was
+    /// named.
     pub injected: Vec<(TrialGroup, Option<usize>, Vec<usize>)>,
 }
 
 impl Tally {
-    /// The rows of kinds, of two effects, of an unknown one and of none; the columns of what was named.
+    /// The confusion table. Its rows are single effects by kind, two effects, an unknown effect and none; its columns
+    /// are the first findings.
     pub fn confusion(&self) -> Confusion {
         let rows = || self.rows.iter().filter(|row| row.injected != TrialGroup::One);
         let own = |row: &TallyRow| match row.injected {
@@ -35,7 +37,7 @@ impl Tally {
 }
 
 impl Confusion {
-    /// As a table, a code on two lines.
+    /// The table as text, with codes on two lines.
     pub(super) fn table(&self) -> TextTable {
         // A code on two lines: the family above the number.
         let two_lines = |code: &&str| match code.split_at_checked(2) {

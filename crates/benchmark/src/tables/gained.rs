@@ -5,37 +5,37 @@ use crate::statistics::share::Share;
 use crate::statistics::text_table::TextTable;
 use crate::tables::tally::{TrialGroup, median};
 
-/// Share of the gap above which naming an effect is to make an error [`ENOUGH`] times less.
+/// Share of the gap above which naming an effect should reduce an error by the factor [`ENOUGH`].
 const LARGE: f64 = 0.6;
 
-/// How many times less an error is to be.
+/// Factor by which an error should fall.
 const ENOUGH: f64 = 2.0;
 
-/// What naming an effect gains on runs that took no part in it.
+/// The gain of naming an effect, on held-out runs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Gained {
-    /// What was put in.
+    /// The injected effects.
     #[serde(rename = "put_in")]
     pub injected: TrialGroup,
-    /// Trials with such runs.
+    /// Number of trials with such runs.
     pub trials: usize,
-    /// Of the torque.
+    /// Of the torque error.
     pub torque: Reduction,
-    /// Of the simulation, in [`Gains::WINDOW_S`].
+    /// Of the drift of the simulation after [`Gains::WINDOW_S`].
     pub drift: Reduction,
-    /// Of the tracking.
+    /// Of the tracking error.
     pub tracking: Reduction,
 }
 
-/// How many times less an error is.
+/// Factor by which an error falls.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Reduction {
-    /// In the trial in the middle.
+    /// In the median trial.
     pub median: Option<f64>,
     /// In the worst trial.
     pub least: Option<f64>,
-    /// Trials with an error of half or less, of those in which what was put in was named and goes
-    /// with over 60 % of the nominal residual's power.
+    /// Trials in which the error at least halves, among those in which the injected effects were named and explain
+    /// over 60 % of the nominal residual's power.
     pub halved: Share,
 }
 
@@ -59,7 +59,7 @@ impl Gained {
         })
     }
 
-    /// What they come to, a row each.
+    /// The gains as a table, one row each.
     pub fn table(all: &[Self]) -> TextTable {
         let header = ["put in", "trials", "torque", "drift", "tracking"];
         let halved = ["torque", "drift", "tracking"].map(|name| format!("{name} halved"));

@@ -10,24 +10,24 @@ use crate::tables::tally::SizeTally;
 /// Causes of one kind over the trials of a population.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct KindRow {
-    /// Its code and name; `all` for causes of every kind.
+    /// Code and name of the kind; `all` for causes of every kind.
     pub kind: String,
-    /// Visible ones.
+    /// Number of visible causes.
     pub visible: usize,
-    /// Those that a finding or a rival of one names.
+    /// Share of them that is a finding or a rival of one.
     pub named: Rate,
-    /// Those that the two questions name.
+    /// Share of them that the two questions name.
     pub two_questions: Rate,
-    /// Those that plain least squares names.
+    /// Share of them that plain least squares names.
     pub least_squares: Rate,
-    /// Findings of this kind that are not true, where that can be known.
+    /// Number of false findings of this kind, where the causes are known.
     pub false_findings: usize,
-    /// Sizes, where a finding names a visible cause itself.
+    /// Errors of the sizes, where a finding names a visible cause itself.
     pub sizes: SizeTally,
 }
 
 impl KindRow {
-    /// One for each kind that is visible or falsely named somewhere, by code, and one for all.
+    /// One row for each kind that is visible or falsely named in some trial, by code, and one for all.
     pub(super) fn all(judgements: &[Judgement]) -> Vec<Self> {
         let mut kinds = EffectKind::ALL.to_vec();
         kinds.sort_by_key(|kind| kind.code());

@@ -12,29 +12,29 @@ use crate::trials::kind_count::KindCount;
 /// The schema that `tally.json` follows.
 pub const MERGED_SCHEMA: &str = "plumbline.trials/1";
 
-/// What the trials of a campaign come to.
+/// The results of all trials of a campaign.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Merged {
     /// Always [`MERGED_SCHEMA`].
     pub schema: &'static str,
-    /// The campaign, by its hash.
+    /// Hash of the campaign.
     pub campaign: String,
-    /// How many trials there are, kind by kind and in all.
+    /// Number of trials, by kind and in all.
     pub counts: Vec<KindCount>,
     /// Why trials failed.
     pub failures: Vec<Failure>,
-    /// How well the others were diagnosed.
+    /// How well the other trials were diagnosed.
     #[serde(flatten)]
     pub tally: Tally,
     /// How often effects are named, by their size.
     pub power: Vec<Power>,
-    /// What naming effects gains, where that was measured.
+    /// The gains of naming effects, where they were measured.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub gained: Vec<Gained>,
 }
 
 impl Merged {
-    /// What has been made of a campaign, whoever made it and in whatever order.
+    /// The results of a campaign, independent of who made the trials and of their order.
     pub fn new(folder: &CampaignFolder, made: &Manifest) -> Self {
         let scores: Vec<Score> =
             made.records.values().filter_map(|record| record.scenario_score().cloned()).collect();
@@ -49,7 +49,7 @@ impl Merged {
         }
     }
 
-    /// How many trials there are, how well they were diagnosed, and by size.
+    /// Numbers of trials, results of the diagnosis, and results by size.
     pub fn text(&self) -> String {
         let counts = KindCount::table(&self.counts[self.counts.len().saturating_sub(1)..]);
         let mut text =
@@ -61,12 +61,12 @@ impl Merged {
         text
     }
 
-    /// What naming an effect gains, where that was measured.
+    /// The gains of naming effects, where they were measured.
     pub fn gain_table(&self) -> Option<TextTable> {
         (!self.gained.is_empty()).then(|| Gained::table(&self.gained))
     }
 
-    /// How often an effect is named first, by thirds of the trials in order of its size.
+    /// How often an effect is named first, in three classes of equal number by its size.
     pub fn powers(&self) -> TextTable {
         let class = |class: &SizeClass| {
             let [low, high] = class.sizes.map(short);

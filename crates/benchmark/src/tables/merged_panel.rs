@@ -9,24 +9,24 @@ use crate::trials::kind_count::KindCount;
 /// The schema that `tally.json` of a population follows.
 pub const PANEL_SCHEMA: &str = "plumbline.panel/1";
 
-/// What the trials of a population come to, and how many there are.
+/// The results of the trials of a population, and their numbers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MergedPanel {
     /// Always [`PANEL_SCHEMA`].
     pub schema: &'static str,
-    /// The campaign, by its hash.
+    /// Hash of the campaign.
     pub campaign: String,
-    /// How many trials there are.
+    /// Number of trials.
     pub counts: Vec<KindCount>,
     /// Why trials failed.
     pub failures: Vec<Failure>,
-    /// How well the others were answered.
+    /// How well the other trials were answered.
     #[serde(flatten)]
     pub tally: PanelTally,
 }
 
 impl MergedPanel {
-    /// What has been made of a campaign, whoever made it and in whatever order.
+    /// The results of a campaign, independent of who made the trials and of their order.
     pub fn new(folder: &CampaignFolder, made: &Manifest) -> Self {
         let judged = made.records.values().filter_map(|record| record.judgement().cloned());
         Self {
@@ -38,7 +38,7 @@ impl MergedPanel {
         }
     }
 
-    /// How many trials there are, and the tables.
+    /// Numbers of trials, and the tables.
     pub fn text(&self) -> String {
         let counts = KindCount::table(&self.counts);
         let failures = self.failures.iter().map(Failure::words).collect::<String>();

@@ -1,4 +1,4 @@
-//! What the trials of a campaign come to, in tables.
+//! Results of the trials of a campaign, in tables.
 
 pub(crate) mod confusion;
 pub(crate) mod gained;

@@ -12,55 +12,55 @@ use crate::tables::tally::median;
 /// Trials of one side of a population.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PanelRow {
-    /// What they are alike in.
+    /// The property that the trials have in common.
     pub side: PanelSide,
-    /// How many they are.
+    /// Number of trials.
     pub trials: usize,
-    /// How well the diagnosis names.
+    /// Precision and recall of the diagnosis.
     pub named: Naming,
-    /// The same by torque: a finding weighs its share of the gap's power, a cause its torque.
+    /// The same, weighted by torque: a finding by its share of the gap's power, a cause by its torque.
     pub named_by_torque: Naming,
-    /// How well the two questions name.
+    /// Precision and recall of the two questions.
     pub two_questions: Naming,
-    /// How well plain least squares names.
+    /// Precision and recall of plain least squares.
     pub least_squares: Naming,
-    /// Trials that hide something visible and are called consistent, or explained with some of it unnamed.
+    /// Trials that hide something visible but are called consistent, or explained with some of it unnamed.
     pub false_assurance: Share,
     /// Trials without anything visible in which something is named or left open.
     pub false_alarm: Share,
-    /// Trials whose logs the diagnosis refuses.
+    /// Number of trials whose logs the diagnosis rejects.
     pub refused: usize,
-    /// Trials in which the findings make the prediction of torque worse.
+    /// Trials in which the findings make the torque prediction worse.
     pub worse: Share,
-    /// Median error of torque over that of the robot as described.
+    /// Median torque errors over that of the robot as described.
     pub ratios: Ratios,
     /// Median time of a diagnosis (s).
     pub median_s: Option<f64>,
-    /// Time that nine of ten diagnoses keep to (s).
+    /// 90th percentile of the time of a diagnosis (s).
     pub nine_of_ten_s: Option<f64>,
     /// Median time of making the logs of a trial, where they were made (s).
     pub logs_s: Option<f64>,
-    /// Largest memory of a trial (MB).
+    /// Peak memory of a trial (MB).
     pub peak_memory_mb: Option<f64>,
 }
 
-/// How well causes are named.
+/// Precision and recall of the names.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Naming {
-    /// Names that are true, of all that are named.
+    /// Names that are true, of all names.
     pub precision: Rate,
-    /// Visible causes that are named, of all of them.
+    /// Visible causes that are named, of all visible causes.
     pub recall: Rate,
 }
 
-/// Median errors of torque on a log that took no part, over those of the robot as described.
+/// Median torque errors on a held-out log, over those of the robot as described.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Ratios {
     /// Of the robot with the findings.
     pub extended: Option<f64>,
     /// Of plain least squares.
     pub least_squares: Option<f64>,
-    /// Of what the two questions fit.
+    /// Of the fit of the two questions.
     pub two_questions: Option<f64>,
 }
 
@@ -126,7 +126,7 @@ impl Ratios {
     }
 }
 
-/// The least number that nine of ten do not exceed.
+/// The smallest of the numbers that at least nine of ten do not exceed.
 fn percentile_90(numbers: &[f64]) -> Option<f64> {
     let mut sorted = numbers.to_vec();
     sorted.sort_by(f64::total_cmp);

@@ -7,10 +7,10 @@ use crate::tables::panel_row::PanelRow;
 use crate::tables::slow_diagnosis::SlowDiagnosis;
 use crate::tables::stranger_row::StrangerRow;
 
-/// What the trials of a population come to.
+/// Results of the trials of a population.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PanelTally {
-    /// All of them, then by arm, origin, motion, effort, encoder, number of visible causes and of logs, and
+    /// All trials, then those by arm, origin, motion, effort, encoder, number of visible causes, number of logs, and
     /// by whether runs repeat.
     pub rows: Vec<PanelRow>,
     /// Causes by kind.

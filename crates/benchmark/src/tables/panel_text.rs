@@ -5,11 +5,11 @@ use crate::tables::panel_tally::PanelTally;
 use crate::tables::slow_diagnosis::SlowDiagnosis;
 use crate::tables::stranger_row::StrangerRow;
 
-/// What stands for a number that there is not.
+/// Text in place of a missing number.
 const NONE: &str = "-";
 
 impl PanelTally {
-    /// Its tables within 120 columns.
+    /// The tables within 120 columns.
     pub fn text(&self) -> String {
         let tables = self.tables().into_iter().filter(|table| !table.rows.is_empty());
         tables.map(|table| table.text(1)).collect::<Vec<_>>().join("\n")

@@ -5,34 +5,34 @@ use serde::Serialize;
 use crate::statistics::share::Share;
 use crate::tables::tally::TrialGroup;
 
-/// Classes by size.
+/// Number of classes by size.
 const CLASSES: usize = 3;
 
-/// How often an effect is named, by the size that was put in.
+/// How often an effect is named, by its injected size.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Power {
-    /// What was put in.
+    /// The injected effect.
     #[serde(rename = "put_in")]
     pub injected: TrialGroup,
-    /// The parameter that is its size.
+    /// The parameter that stands for its size.
     pub parameter: &'static str,
     /// Its unit at a revolute joint.
     pub unit: &'static str,
-    /// Trials of equal number, smaller sizes first.
+    /// Classes of equal number of trials, smaller sizes first.
     pub classes: Vec<SizeClass>,
 }
 
-/// Trials of like size.
+/// Trials of similar size.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SizeClass {
     /// Least and largest size.
     pub sizes: [f64; 2],
-    /// Trials in which it was named first, effect and place.
+    /// Trials in which the effect was named first, at its place.
     pub exactly: Share,
 }
 
 impl Power {
-    /// One for every kind that was put in alone and has a size, by code.
+    /// One entry for every kind that was injected alone and has a size, by code.
     pub fn all(scores: &[Score]) -> Vec<Self> {
         let mut kinds = EffectKind::ALL;
         kinds.sort_by_key(|kind| kind.code());
@@ -59,7 +59,7 @@ impl Power {
     }
 }
 
-/// The parameter that says how large an effect is; none of a body that is put in in whole.
+/// The parameter that stands for the size of an effect; `None` for a body, which is injected as a whole.
 fn size_of(kind: EffectKind) -> Option<&'static Parameter> {
     let parameters = kind.entry().parameters;
     let parameter_named = |name| parameters.iter().find(|parameter| parameter.name == name);
@@ -72,7 +72,7 @@ fn size_of(kind: EffectKind) -> Option<&'static Parameter> {
     }
 }
 
-/// What was put in: the length of a vector, the distance of a factor from 1, or the number.
+/// Injected size: the length of a vector, the distance of a factor from 1, or the number.
 fn size(injected: &Injected, parameter: &Parameter) -> Option<f64> {
     let value = |name: &str| injected.sizes.iter().find(|s| s.name == name).map(|s| s.truth);
     match parameter.name {

@@ -2,30 +2,30 @@ use serde::Serialize;
 
 use crate::panel::judgement::Judgement;
 
-/// A diagnosis that took long, and what it had to do.
+/// A diagnosis that took long, and the size of its task.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SlowDiagnosis {
     /// Seed of the trial.
     pub seed: u64,
     /// Its arm, motion and effort.
     pub corner: String,
-    /// Joints of the arm.
+    /// Number of joints of the arm.
     pub joints: usize,
-    /// Logs that were given.
+    /// Number of logs.
     pub logs: usize,
-    /// Samples of a joint over all of them.
+    /// Number of samples of a joint over all logs.
     pub samples: f64,
-    /// Findings.
+    /// Number of findings.
     pub findings: usize,
     /// Time of the diagnosis (s).
     pub time_s: f64,
 }
 
 impl SlowDiagnosis {
-    /// Time from which on a diagnosis is listed in any case (s).
+    /// Time above which every diagnosis is listed (s).
     pub const LONG_S: f64 = 60.0;
 
-    /// Listed in any case.
+    /// Number of diagnoses that are listed whatever their time.
     const MOST: usize = 10;
 
     /// The ten that took longest, and every one over [`LONG_S`](Self::LONG_S); the longest first.

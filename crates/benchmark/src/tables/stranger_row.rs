@@ -6,24 +6,24 @@ use serde::Serialize;
 use crate::panel::judgement::Judgement;
 use crate::statistics::share::Share;
 
-/// Trials in which one effect of no catalogue is in the data.
+/// Trials whose data contain one effect of no catalogue.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StrangerRow {
-    /// Its name; `all` for every one of them.
+    /// Name of the effect; `all` for all of them.
     pub name: String,
-    /// Trials that have it.
+    /// Number of these trials.
     pub trials: usize,
-    /// Those in which it leaves structure open, or refuses the logs, and names nothing false, of those in which an
-    /// oracle sees it.
+    /// Trials in which the diagnosis leaves structure open, or rejects the logs, and names nothing false, of those in
+    /// which an oracle detects the effect.
     pub open: Share,
-    /// Those that are called consistent or explained.
+    /// Trials that are called consistent or explained.
     pub assured: Share,
-    /// Those in which something false is named.
+    /// Trials in which something false is named.
     pub misnamed: Share,
 }
 
 impl StrangerRow {
-    /// One for each by name, and one for all where there is any.
+    /// One row for each effect by name, and one for all if there is any.
     pub(super) fn all(judgements: &[Judgement]) -> Vec<Self> {
         let mut named: BTreeMap<&str, Vec<(bool, &Judgement)>> = BTreeMap::new();
         let mut every = Vec::new();

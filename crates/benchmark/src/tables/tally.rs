@@ -8,77 +8,76 @@ use serde::{Serialize, Serializer};
 
 use crate::statistics::share::Share;
 
-/// What the first finding is called where there is none.
+/// Name of the first finding where there is none.
 pub(super) const NOTHING: &str = "nothing";
 
-/// What many trials come to.
+/// Results of many trials.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Tally {
-    /// One for every kind that was put in alone, by code; then all of these together, trials
-    /// with two effects, those with one that is not looked for, and clean ones. Those without a
-    /// trial are left out.
+    /// One row for every kind that was injected alone, by code; then single effects of all kinds, trials with two
+    /// effects, trials with an effect that is not looked for, and clean trials. Groups without trials are left out.
     pub rows: Vec<TallyRow>,
 }
 
-/// Trials that belong together.
+/// A group of trials.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TrialGroup {
-    /// One effect of this kind was put in.
+    /// One effect of this kind was injected.
     Kind(EffectKind),
-    /// One effect of any kind.
+    /// One effect of any kind was injected.
     One,
-    /// More than one.
+    /// Two or more effects were injected.
     Two,
-    /// One that is not looked for.
+    /// One effect was injected that is not looked for.
     Unknown,
-    /// None.
+    /// Nothing was injected.
     Clean,
 }
 
-/// A group of trials.
+/// Results of a group of trials.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TallyRow {
-    /// What was put in.
+    /// The injected effects.
     #[serde(rename = "put_in")]
     pub injected: TrialGroup,
-    /// How many trials there are.
+    /// Number of trials.
     pub trials: usize,
-    /// Trials in which it was named first, effect and place; nothing, in clean ones.
+    /// Trials in which the injected effects were named first, at their places; in clean trials, nothing was named.
     pub exactly: Share,
-    /// The same of those trials whose logs show it, see [`Score::visible`].
+    /// The same, of the trials whose logs show the effects (see [`Score::visible`]).
     pub visibly: Share,
-    /// Trials in which it was named first or a rival of what was.
+    /// Trials in which the injected effects are the first findings or rivals of these.
     pub as_one_of: Share,
-    /// Trials in which all of it was named or a rival of what was, first or not; of none where
-    /// there was nothing to find.
+    /// Trials in which all injected effects are findings or rivals of findings, first or not; no trials where nothing
+    /// was injected.
     pub found: Share,
-    /// Trials whose verdict leaves structure open and names nothing wrong.
+    /// Trials whose verdict leaves structure open and that name nothing false.
     pub unknown: Share,
     /// Trials with a finding that is neither true nor a rival of a true one.
     pub stray: Share,
-    /// What was named first, by code or `nothing`, and how often.
+    /// First findings by code, or `nothing`, with their counts.
     pub named_first: BTreeMap<&'static str, usize>,
-    /// Its parameters by name; of effects of any kind, all of them as `all`.
+    /// The parameters by name; for effects of any kind, all of them together as `all`.
     pub sizes: Vec<SizeTally>,
 }
 
-/// How good the estimates of a parameter are, where its effect was named at its place.
+/// Errors of the estimates of a parameter, where its effect was named at its place.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SizeTally {
     /// Name of the parameter.
     pub name: String,
-    /// Trials with an estimate.
+    /// Number of trials with an estimate.
     pub estimates: usize,
-    /// Those in which the logs narrow it down, on which all that follows rests.
+    /// Number of trials in which the logs determine it; the fields below are of these.
     pub determined: usize,
     /// Median relative error.
     pub median_error: Option<f64>,
-    /// Intervals that hold the truth.
+    /// Intervals that contain the injected value.
     pub covered: Share,
 }
 
 impl Tally {
-    /// The tally of some scores, whatever their order.
+    /// The tally of some scores, independent of their order.
     pub fn of(scores: &[Score]) -> Self {
         let groups = TrialGroup::by_group(scores);
         Self {

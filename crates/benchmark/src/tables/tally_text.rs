@@ -2,14 +2,14 @@ use crate::statistics::text_table::TextTable;
 use crate::tables::tally::{SizeTally, Tally, TallyRow};
 
 impl Tally {
-    /// Three tables within 120 columns, for counts below 1000: how often it was right, what was
-    /// named first for what was put in, and how good the sizes are.
+    /// Three tables within 120 columns, for counts below 1000: the right answers, the first findings against the
+    /// injected effects, and the errors of the sizes.
     pub fn text(&self) -> String {
         let [shares, sizes] = self.tables();
         [shares.text(1), self.confusion().table().text(0), sizes.text(1)].join("\n")
     }
 
-    /// How often it was right, and how good the sizes are.
+    /// The right answers, and the errors of the sizes.
     pub fn tables(&self) -> [TextTable; 2] {
         [self.shares(), self.sizes()]
     }

@@ -16,12 +16,12 @@ use crate::trials::scored::Scored;
 /// The key of a population.
 const POPULATION: &str = "population";
 
-/// A campaign of blind trials: many arms that are drawn, or one arm in which something is hidden.
+/// A campaign of blind trials: either many random arms, or one arm with hidden effects.
 #[derive(Debug, Clone)]
 pub enum Campaign {
-    /// The arm of a scenario.
+    /// Trials of the arm of a scenario.
     Scenario(ScenarioCampaign),
-    /// Arms, sensors, motions and causes that are drawn.
+    /// Trials with random arms, sensors, motions and causes.
     Population(PopulationCampaign),
 }
 
@@ -38,18 +38,19 @@ pub struct PopulationCampaign {
     pub population: PopulationSpec,
 }
 
-/// What tells a population from a scenario.
+/// The key that tells a population from a scenario.
 #[derive(Deserialize)]
 struct Form {
     population: Option<IgnoredAny>,
 }
 
 impl Campaign {
-    /// Reads a campaign from a document: that of a population where it has this key.
+    /// Reads a campaign from a document: a population where the document has its key.
     ///
     /// # Errors
     ///
-    /// [`ExperimentError::Document`](experiment::ExperimentError::Document) at the value at fault, and what a scenario is refused for.
+    /// [`ExperimentError::Document`](experiment::ExperimentError::Document) at the value at fault, and the errors of
+    /// a scenario.
     pub fn from_document(document: &Document) -> Result<Self, BenchmarkError> {
         if document.parse::<Form>()?.population.is_none() {
             return Ok(Self::Scenario(ScenarioCampaign::from_document(document)?));
@@ -60,8 +61,7 @@ impl Campaign {
         Ok(Self::Population(PopulationCampaign { population }))
     }
 
-    /// The campaign as one text; `scenario` is the name of the scenario file beside it, if it
-    /// starts from one.
+    /// The campaign as one text; `scenario` is the name of the scenario file beside it, if it has one.
     pub(super) fn self_contained_text(&self, scenario: &str) -> String {
         match self {
             Self::Scenario(campaign) => campaign.self_contained_text(scenario),
@@ -78,7 +78,7 @@ impl Campaign {
         }
     }
 
-    /// What is hidden, kind by kind; none of a population.
+    /// The hidden effects, kind by kind; empty for a population.
     pub fn kinds(&self) -> &[Hidden] {
         match self {
             Self::Scenario(campaign) => campaign.kinds(),
@@ -86,7 +86,7 @@ impl Campaign {
         }
     }
 
-    /// Number of its trials.
+    /// Number of trials.
     pub fn trials(&self) -> usize {
         match self {
             Self::Scenario(campaign) => campaign.trials(),
@@ -94,8 +94,8 @@ impl Campaign {
         }
     }
 
-    /// Identity of the campaign: SHA-256 of everything that its scores depend on, without recorded
-    /// logs of a population and this program.
+    /// Identity of the campaign: SHA-256 of everything that its scores depend on, except for this program and the
+    /// recorded logs of a population.
     pub fn hash(&self) -> String {
         match self {
             Self::Scenario(campaign) => campaign.hash(),
@@ -103,7 +103,7 @@ impl Campaign {
         }
     }
 
-    /// The kind, where there are kinds, and the seed of a task, from 0 to [`trials`](Self::trials) - 1.
+    /// The kind (if there are kinds) and the seed of a task, from 0 to [`trials`](Self::trials) - 1.
     pub fn task(&self, task: usize) -> (Option<Hidden>, u64) {
         match self {
             Self::Scenario(campaign) => {
@@ -116,15 +116,15 @@ impl Campaign {
         }
     }
 
-    /// Where the logs of a task lie among those that are kept: `KIND/SEED`.
+    /// Path of the logs of a task among the kept logs: `KIND/SEED`.
     pub(super) fn logs(&self, task: usize) -> PathBuf {
         let (hidden, seed) = self.task(task);
         let kind = hidden.map_or_else(|| POPULATION.to_owned(), |hidden| hidden.to_string());
         PathBuf::from(kind).join(seed.to_string())
     }
 
-    /// Whether a folder holds the logs of a task, whole, so that they would be used again; `scenario` is the
-    /// file of the one that it starts from. Logs of a population are used again from a store alone.
+    /// Whether a folder holds all logs of a task, so that they can be used again. `scenario` is the file of the
+    /// scenario that the task starts from. Logs of a population are used again from a store only.
     pub(super) fn is_logged(&self, task: usize, scenario: &Path, folder: &Path) -> bool {
         match self {
             Self::Scenario(campaign) => campaign.trial(task, scenario).is_logged(folder),
@@ -132,8 +132,8 @@ impl Campaign {
         }
     }
 
-    /// Makes the trial of a task: its logs in `folder`, or from the store of a population, whose entry may have
-    /// to be made again.
+    /// Makes the trial of a task, with its logs in `folder` or from the store of a population. An entry of the store
+    /// that cannot be used is made again.
     pub(super) fn make(
         &self,
         task: usize,

@@ -14,7 +14,7 @@ const SCENARIO: &str = "scenario.toml";
 const SHARDS: &str = "shards";
 const SHARD: &str = "parquet";
 
-/// A folder in which a campaign is made.
+/// The folder of a campaign.
 ///
 /// ```text
 /// campaign.toml                  what is to be made, with all that it extends
@@ -25,7 +25,7 @@ const SHARD: &str = "parquet";
 /// slurm/                         job of `plumbline-bench submit` and what its tasks have said
 /// ```
 ///
-/// The trials without a shard are left to make.
+/// Trials without a shard are still to be made.
 #[derive(Debug, Clone)]
 pub struct CampaignFolder {
     root: PathBuf,
@@ -33,10 +33,10 @@ pub struct CampaignFolder {
     hash: String,
 }
 
-/// The finished trials of a campaign, and files that count as none.
+/// The finished trials of a campaign, and the unusable files among the shards.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Manifest {
-    /// The finished trials by task, those that failed among them.
+    /// The finished trials by task, including the failed ones.
     pub records: BTreeMap<usize, Record>,
     /// Files among the shards that do not belong to this campaign, by path.
     pub broken: Vec<BrokenShard>,
@@ -52,12 +52,12 @@ pub struct BrokenShard {
 }
 
 impl CampaignFolder {
-    /// Puts a campaign into a folder, which is made when it is not there.
+    /// Puts a campaign into a folder, which is created if it is missing.
     ///
     /// # Errors
     ///
-    /// [`BenchmarkError::OtherCampaign`] when the folder holds trials of another one, and
-    /// whatever keeps it from being read or written.
+    /// [`BenchmarkError::OtherCampaign`] when the folder holds trials of another campaign, and the errors of reading
+    /// and writing it.
     pub fn plan(root: &Path, campaign: Campaign) -> Result<Self, BenchmarkError> {
         let folder = Self::of(root, campaign);
         for path in folder.shards()? {
@@ -81,7 +81,7 @@ impl CampaignFolder {
     ///
     /// # Errors
     ///
-    /// [`BenchmarkError::NoCampaign`] and what [`Campaign::from_document`] refuses.
+    /// [`BenchmarkError::NoCampaign`] and the errors of [`Campaign::from_document`].
     pub fn open(root: &Path) -> Result<Self, BenchmarkError> {
         if !root.join(CAMPAIGN).exists() {
             return Err(BenchmarkError::NoCampaign { path: root.to_owned() });
@@ -94,12 +94,12 @@ impl CampaignFolder {
         Self { root: root.to_owned(), hash: campaign.hash(), campaign }
     }
 
-    /// Takes finished trials of the campaign, as [`read_finished`] reads them; those that have a shard here stay.
-    /// Says how many it took.
+    /// Adds finished trials of the campaign, as [`read_finished`] returns them. Existing shards stay. Returns the
+    /// number of added trials.
     ///
     /// # Errors
     ///
-    /// Whatever keeps a shard from being written.
+    /// The errors of writing a shard.
     pub fn take(&self, records: &[Record]) -> Result<usize, BenchmarkError> {
         let new: Vec<&Record> = records.iter().filter(|record| !self.holds(record.task)).collect();
         new.iter().try_for_each(|record| self.keep(record))?;
@@ -111,12 +111,12 @@ impl CampaignFolder {
         &self.campaign
     }
 
-    /// What tells the campaign from others.
+    /// Identity of the campaign.
     pub fn hash(&self) -> &str {
         &self.hash
     }
 
-    /// The files that say what is to be made.
+    /// The files that define the campaign.
     pub fn plans(&self) -> Vec<PathBuf> {
         let scenario = self.campaign.scenario().map(|_| SCENARIO);
         [Some(CAMPAIGN), scenario].into_iter().flatten().map(|name| self.root.join(name)).collect()
@@ -140,11 +140,11 @@ impl CampaignFolder {
         Ok(made)
     }
 
-    /// The tasks of a part that are left.
+    /// The tasks of a part that are still to be made.
     ///
     /// # Errors
     ///
-    /// As [`manifest`](Self::manifest).
+    /// The errors of [`manifest`](Self::manifest).
     pub fn remaining(&self, part: Part) -> Result<Vec<usize>, BenchmarkError> {
         let made = self.manifest()?.records;
         let all = (0..self.campaign.trials()).filter(|task| part.holds(*task));
@@ -156,12 +156,12 @@ impl CampaignFolder {
         self.read(&self.shard(task)).is_ok()
     }
 
-    /// Where the shard of a task lies.
+    /// Path of the shard of a task.
     pub fn shard(&self, task: usize) -> PathBuf {
         self.root.join(SHARDS).join(format!("{task:05}.{SHARD}"))
     }
 
-    /// A folder in it, which is made when it is not there.
+    /// A folder inside it, which is created if it is missing.
     pub(super) fn folder(&self, name: &str) -> Result<PathBuf, BenchmarkError> {
         let folder = self.root.join(name);
         std::fs::create_dir_all(&folder).map_err(unusable(&folder))?;
@@ -174,12 +174,12 @@ impl CampaignFolder {
         Ok(Record::write(&self.shard(record.task), std::slice::from_ref(record))?)
     }
 
-    /// Where the scenario that every trial starts from lies, if there is one.
+    /// Path of the scenario that every trial starts from, if there is one.
     pub(super) fn scenario(&self) -> PathBuf {
         self.root.join(SCENARIO)
     }
 
-    /// The files among the shards, by name.
+    /// The files among the shards, in the order of their names.
     fn shards(&self) -> Result<Vec<PathBuf>, BenchmarkError> {
         let folder = self.root.join(SHARDS);
         let entries = match std::fs::read_dir(&folder) {
@@ -193,7 +193,7 @@ impl CampaignFolder {
         Ok(paths)
     }
 
-    /// The record in a shard; in words why it is none of this campaign.
+    /// The record in a shard, or in words why it does not belong to this campaign.
     fn read(&self, path: &Path) -> Result<Record, String> {
         let mut records = Record::read(path)?;
         let (Some(record), true) = (records.pop(), records.is_empty()) else {

@@ -4,19 +4,19 @@ use serde::Serialize;
 
 use crate::trials::campaign_folder::Manifest;
 
-/// Trials that failed alike.
+/// Trials that failed for the same reason.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Failure {
-    /// What was hidden; `population` where that is drawn.
+    /// The hidden effects, or `population`.
     pub hidden: String,
-    /// Why they failed, in words.
+    /// The reason, in words.
     pub error: String,
     /// Their seeds.
     pub seeds: Vec<u64>,
 }
 
 impl Failure {
-    /// One for each kind and reason.
+    /// One entry for each kind and reason.
     pub(crate) fn all(made: &Manifest) -> Vec<Self> {
         let mut failures: BTreeMap<(String, String), Vec<u64>> = BTreeMap::new();
         for record in made.records.values() {
@@ -30,7 +30,7 @@ impl Failure {
         failures.into_iter().map(failure).collect()
     }
 
-    /// How many, of what and why, after a blank line.
+    /// Number, kind and reason, after a blank line.
     pub(crate) fn words(&self) -> String {
         let Self { hidden, error, seeds } = self;
         let first = seeds.first().map_or(String::new(), |seed| format!(", seed {seed} first"));

@@ -3,19 +3,18 @@ use std::str::FromStr;
 
 use catalogue::{EffectKind, UnknownEffect};
 
-/// What is hidden in the arm of a trial; joint or link, size and shape follow from the seed.
+/// Hidden effects in the arm of a trial. Joint or link, size and shape follow from the seed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Hidden {
-    /// Nothing: whatever is named was made up.
+    /// None: every finding is false.
     Nothing,
     /// One effect of a kind.
     One(EffectKind),
-    /// One effect of a kind that the diagnosis does not look for: to it, something unknown.
+    /// One effect of a kind that the diagnosis does not look for, and so cannot name.
     Unknown(EffectKind),
-    /// The same, and the diagnosis does not look for the effects that the catalogue confuses it
-    /// with either.
+    /// The same, where the diagnosis also does not look for effects that the catalogue lists as confused with it.
     WithoutRelatives(EffectKind),
-    /// Two effects, each drawn from the two kinds: it may be one kind at two places.
+    /// Two effects, each drawn from the two kinds; both may be of one kind at two places.
     Two(EffectKind, EffectKind),
     /// Two effects of any kinds that the scenario draws from.
     AnyTwo,
@@ -27,7 +26,7 @@ const STRANGE: &str = "strange_";
 const ANY_TWO: &str = "any+any";
 
 impl Hidden {
-    /// The settings of a scenario, as `--set` takes them; other keys of its `hidden` stay.
+    /// The corresponding settings of a scenario, as `--set` takes them; other keys of its `hidden` stay.
     pub fn settings(self) -> Vec<String> {
         let drawn = match self {
             Self::Nothing => return vec!["hidden.count=[0, 0]".to_owned()],
@@ -54,7 +53,7 @@ impl Hidden {
         }
     }
 
-    /// The same whichever of two effects is named first.
+    /// The same in a fixed order of two effects.
     pub(super) fn in_order(self) -> Self {
         match self {
             Self::Two(a, b) if b < a => Self::Two(b, a),
@@ -63,8 +62,8 @@ impl Hidden {
     }
 }
 
-/// Such as `clean`, `backlash`, `without_backlash`, `strange_backlash`, `backlash+payload` and
-/// `any+any`: the folder of its trials.
+/// Name of the folder of its trials, such as `clean`, `backlash`, `without_backlash`, `strange_backlash`,
+/// `backlash+payload` and `any+any`.
 impl fmt::Display for Hidden {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -81,7 +80,7 @@ impl fmt::Display for Hidden {
 impl FromStr for Hidden {
     type Err = UnknownEffect;
 
-    /// What [`fmt::Display`] writes; codes do for names.
+    /// Reads what [`fmt::Display`] writes; codes are accepted instead of names.
     fn from_str(text: &str) -> Result<Self, UnknownEffect> {
         match text.split_once('+') {
             None if text == CLEAN => Ok(Self::Nothing),

@@ -4,23 +4,23 @@ use crate::statistics::text_table::TextTable;
 use crate::trials::campaign_folder::{CampaignFolder, Manifest};
 use crate::trials::hidden::Hidden;
 
-/// How far the trials of a kind are.
+/// Progress of the trials of a kind.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct KindCount {
-    /// What is hidden; `all` at the end.
+    /// The hidden effects; `all` in the last entry.
     pub hidden: String,
-    /// Trials with a score.
+    /// Number of trials with a score.
     pub made: usize,
-    /// Trials that could not be simulated or diagnosed.
+    /// Number of trials that could not be simulated or diagnosed.
     pub failed: usize,
-    /// Trials whose shard is broken or of another campaign.
+    /// Number of trials whose shard is broken or of another campaign.
     pub broken: usize,
-    /// Trials without a shard.
+    /// Number of trials without a shard.
     pub left: usize,
 }
 
 impl KindCount {
-    /// One for every kind of a campaign, in its order, and one for all of them; of a population that alone.
+    /// One entry for every kind of a campaign, in its order, and one for all kinds. A population has only the latter.
     pub fn all(folder: &CampaignFolder, made: &Manifest) -> Vec<Self> {
         let campaign = folder.campaign();
         let of = |hidden: Option<Hidden>| {
@@ -42,7 +42,7 @@ impl KindCount {
         campaign.kinds().iter().map(|kind| of(Some(*kind))).chain([of(None)]).collect()
     }
 
-    /// A row for each.
+    /// The counts as a table, one row each.
     pub fn table(counts: &[Self]) -> TextTable {
         let row = |count: &Self| {
             let numbers = [count.made, count.failed, count.broken, count.left];
@@ -56,12 +56,12 @@ impl KindCount {
         }
     }
 
-    /// Trials that are still to be made, or to be made again.
+    /// Number of trials that are still to be made, or to be made again.
     pub fn open(&self) -> usize {
         self.broken + self.left
     }
 
-    /// All of them.
+    /// Number of all trials.
     pub fn trials(&self) -> usize {
         self.made + self.failed + self.open()
     }

@@ -1,4 +1,4 @@
-//! Campaigns of blind trials: planned, made, kept.
+//! Campaigns of blind trials: planning, making and storing them.
 
 pub(crate) mod campaign;
 pub(crate) mod campaign_folder;

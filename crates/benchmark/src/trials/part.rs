@@ -5,32 +5,32 @@ use std::str::FromStr;
 /// One of several parts of a campaign, such as the first of four, `1/4`: every fourth trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Part {
-    /// Which, counted from 1.
+    /// Its number, from 1.
     number: usize,
-    /// Of how many.
+    /// Number of parts.
     of: usize,
 }
 
-/// A text that names no part.
+/// A text that does not name a part.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0:?}: a part such as 1/4 was expected, the first number from 1 to the second")]
 pub struct BadPart(String);
 
 impl Part {
-    /// All of it.
+    /// The whole campaign.
     pub const WHOLE: Self = Self { number: 1, of: 1 };
 
-    /// The one that a task belongs to, of so many.
+    /// The part that a task belongs to, out of `of` parts.
     pub fn of_task(task: usize, of: NonZeroUsize) -> Self {
         Self { number: task % of + 1, of: of.get() }
     }
 
-    /// Which it is, counted from 1.
+    /// Its number, from 1.
     pub fn number(self) -> usize {
         self.number
     }
 
-    /// Whether a task belongs to it.
+    /// Whether a task belongs to the part.
     pub fn holds(self, task: usize) -> bool {
         task % self.of == self.number - 1
     }

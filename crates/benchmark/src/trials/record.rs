@@ -4,18 +4,18 @@ use crate::panel::judgement::Judgement;
 use crate::trials::hidden::Hidden;
 use crate::trials::scored::Scored;
 
-/// What came of one trial of a campaign: a row of a table.
+/// The result of one trial of a campaign, a row of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Record {
-    /// Its number in the campaign, from 0.
+    /// Index of the trial in the campaign, from 0.
     pub task: usize,
-    /// What was hidden in the arm of a scenario; none for a trial of a population.
+    /// The hidden effects in the arm of a scenario; `None` for a trial of a population.
     pub hidden: Option<Hidden>,
-    /// The seed that everything was drawn from.
+    /// The seed of all random draws.
     pub seed: u64,
-    /// The campaign, by its hash.
+    /// Hash of the campaign.
     pub campaign: String,
-    /// The score, or in words why it has none.
+    /// The score, or in words why there is none.
     pub score: Result<Scored, String>,
 }
 

@@ -11,7 +11,7 @@ use crate::trials::record::Record;
 /// A column and its name.
 pub(super) type Named = (&'static str, ArrayRef);
 
-/// What every table has.
+/// Columns of every table.
 pub(super) fn of_all(records: &[Record]) -> Result<Vec<Named>, serde_json::Error> {
     let json = |record: &Record| record.score.as_ref().ok().map(serde_json::to_string).transpose();
     let json = records.iter().map(json).collect::<Result<Vec<_>, _>>()?;
@@ -25,7 +25,7 @@ pub(super) fn of_all(records: &[Record]) -> Result<Vec<Named>, serde_json::Error
     ])
 }
 
-/// What a table of trials of scenarios has besides.
+/// Further columns for trials of scenarios.
 pub(super) fn of_scenarios(records: &[Record]) -> Vec<Named> {
     let scores = || records.iter().map(Record::scenario_score);
     let answer = |of: fn(&Score) -> bool| answers(scores().map(|score| score.map(of)));
@@ -39,7 +39,7 @@ pub(super) fn of_scenarios(records: &[Record]) -> Vec<Named> {
     ]
 }
 
-/// What a table of trials of a population has besides.
+/// Further columns for trials of a population.
 pub(super) fn of_panel(records: &[Record]) -> Vec<Named> {
     let judgements = || records.iter().map(Record::judgement);
     let text =

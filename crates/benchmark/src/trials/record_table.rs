@@ -13,8 +13,8 @@ use crate::trials::record_columns;
 use crate::trials::scored::Scored;
 
 impl Record {
-    /// Writes the records of a campaign as Parquet, one row each: `task`, `seed`, `campaign`, `error` where
-    /// there is no score, the whole `score` as JSON, and what tables are sorted by.
+    /// Writes the records of a campaign as Parquet, one row each: `task`, `seed`, `campaign`, `error` where there is
+    /// no score, the whole `score` as JSON, and the columns that tables are sorted by.
     ///
     /// | of a scenario | of a population |
     /// |---|---|
@@ -24,7 +24,7 @@ impl Record {
     ///
     /// # Errors
     ///
-    /// [`LogError::Unwritable`]; what was there before stays.
+    /// [`LogError::Unwritable`]; an existing file then stays.
     pub fn write(path: &Path, records: &[Self]) -> Result<(), LogError> {
         let unwritable = |e: serde_json::Error| LogError::Unwritable {
             path: path.to_owned(),
@@ -39,7 +39,7 @@ impl Record {
         logs::write_table(path, named.collect(), Vec::new())
     }
 
-    /// Reads what [`write`](Self::write) has written; in words what is wrong with the file.
+    /// Reads a file that [`write`](Self::write) has written.
     ///
     /// # Errors
     ///

@@ -13,13 +13,13 @@ use crate::trials::hash::{hexadecimal, seed_of};
 use crate::trials::hidden::Hidden;
 use crate::trials::trial::Trial;
 
-/// Every kind of the catalogue, one effect each.
+/// The word for every kind of the catalogue, one effect each.
 const EACH: &str = "each";
-/// The same, each left out of the diagnosis.
+/// The word for the same, each left out of the diagnosis.
 const WITHOUT_EACH: &str = "without_each";
-/// The same, with all that it is confused with.
+/// The word for the same, each left out together with the effects it is confused with.
 const STRANGE_EACH: &str = "strange_each";
-/// Version of the text that is hashed: another version gives every campaign another identity.
+/// Version of the hashed text: another version gives every campaign another identity.
 const IDENTITY: &str = "campaign by content/1\n";
 /// Most trials of a kind.
 const MOST_SEEDS: usize = 1_000_000;
@@ -73,23 +73,23 @@ fn names() -> Vec<&'static str> {
     several.into_iter().chain(EffectKind::ALL.map(EffectKind::name)).collect()
 }
 
-/// A campaign of the arm of a scenario whose every value can be meant.
+/// A campaign of the arm of a scenario, with checked values.
 ///
 /// ```text
 /// task  = number len(kinds) + place of the kind,  number = 0 .. seeds - 1
 /// seed  = first 63 bits of SHA-256("campaign seed/kind/number")
 /// ```
 ///
-/// so that a campaign that is half done has as many trials of every kind, and trials of different
-/// kinds have nothing in common.
+/// A half-finished campaign thus has equally many trials of every kind, and trials of different kinds are
+/// independent.
 #[derive(Debug, Clone)]
 pub struct ScenarioCampaign {
     kinds: Vec<Hidden>,
     seeds: usize,
     seed: u64,
-    /// The scenario with the settings, as one text that can be read from any folder.
+    /// The scenario including the settings, as one text that can be read from any folder.
     scenario: String,
-    /// What the scenario holds, without a path.
+    /// Content of the scenario, without a path.
     identity: String,
     gains: bool,
 }
@@ -99,7 +99,8 @@ impl ScenarioCampaign {
     ///
     /// # Errors
     ///
-    /// [`ExperimentError::Document`](experiment::ExperimentError::Document) at the value at fault, and what the scenario is refused for.
+    /// [`ExperimentError::Document`](experiment::ExperimentError::Document) at the value at fault, and the errors of
+    /// the scenario.
     pub fn from_document(document: &Document) -> Result<Self, BenchmarkError> {
         let spec: CampaignSpec = document.parse()?;
         let kinds = kinds(document, &spec)?;
@@ -113,7 +114,7 @@ impl ScenarioCampaign {
         Ok(Self { kinds, seeds, seed, scenario, identity, gains })
     }
 
-    /// The campaign as one text, beside a scenario that is called so.
+    /// The campaign as one text, beside a scenario file of this name.
     pub(super) fn self_contained_text(&self, scenario: &str) -> String {
         let spec = CampaignSpec {
             scenario: PathBuf::from(scenario),
@@ -133,18 +134,18 @@ impl ScenarioCampaign {
         &self.scenario
     }
 
-    /// What is hidden, kind by kind.
+    /// The hidden effects, kind by kind.
     pub fn kinds(&self) -> &[Hidden] {
         &self.kinds
     }
 
-    /// Number of its trials.
+    /// Number of trials.
     pub fn trials(&self) -> usize {
         self.kinds.len() * self.seeds
     }
 
-    /// Identity of the campaign: SHA-256 of everything that its scores depend on, without this
-    /// program. Files count by content, wherever they lie.
+    /// Identity of the campaign: SHA-256 of everything that its scores depend on, except for this program. Files
+    /// count by their content, independent of their paths.
     pub fn hash(&self) -> String {
         hexadecimal(&[IDENTITY, &self.self_contained_text(""), "\n", &self.identity].concat())
     }
@@ -155,7 +156,7 @@ impl ScenarioCampaign {
         (hidden, seed_of(self.seed, &hidden.to_string(), task / self.kinds.len()))
     }
 
-    /// The trial of a task, which starts from the scenario in a file.
+    /// The trial of a task; `scenario` is the file of the scenario.
     pub(super) fn trial(&self, task: usize, scenario: &Path) -> Trial {
         let (hidden, seed) = self.task(task);
         let (scenario, settings) = (scenario.to_owned(), Vec::new());
@@ -191,12 +192,12 @@ fn kinds(document: &Document, spec: &CampaignSpec) -> Result<Vec<Hidden>, Docume
     Ok(kinds)
 }
 
-/// The kinds that effects are drawn from where no kind is said.
+/// The kinds that effects are drawn from where no kind is given.
 fn drawn_kinds(spec: &CampaignSpec) -> impl Iterator<Item = EffectKind> {
     EffectKind::ALL.into_iter().filter(|kind| !spec.except.contains(kind))
 }
 
-/// A resolved scenario with the content of its robot and of recorded files in the place of their paths.
+/// A resolved scenario in which the contents of its robot and recorded files replace their paths.
 fn identity(scenario: &str) -> Result<String, BenchmarkError> {
     let mut spec: ScenarioSpec = Document::from_text("scenario", scenario)?.parse()?;
     let content = Robot::load(&spec.robot)?.content()?;
@@ -208,7 +209,7 @@ fn identity(scenario: &str) -> Result<String, BenchmarkError> {
     Ok(toml::to_string(&spec).unwrap_or_default() + &content)
 }
 
-/// Hash of a file, or of the files of a bag by their names.
+/// Hash of a file, or of the files of a bag in the order of their names.
 fn content_of(path: &Path) -> Result<String, BenchmarkError> {
     let Ok(entries) = std::fs::read_dir(path) else { return Ok(sha256(path)?) };
     let mut files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();

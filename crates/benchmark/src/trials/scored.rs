@@ -8,14 +8,14 @@ use crate::trials::hidden::Hidden;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Scored {
-    /// One of a scenario.
+    /// The score of a trial of a scenario.
     Scenario(Box<Score>),
-    /// One of a population.
+    /// The judgement of a trial of a population.
     Panel(Box<Judgement>),
 }
 
 impl Scored {
-    /// Reads what was written as JSON: of a scenario where something, or nothing, was hidden in its arm.
+    /// Reads a score from JSON: that of a scenario where `hidden` is given.
     pub(super) fn from_json(json: &str, hidden: Option<Hidden>) -> Result<Self, String> {
         let read = match hidden {
             Some(_) => serde_json::from_str(json).map(Self::Scenario),

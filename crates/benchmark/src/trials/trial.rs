@@ -13,7 +13,7 @@ use crate::error::BenchmarkError;
 use crate::trial_folder::{read_runs, unusable};
 use crate::trials::hidden::Hidden;
 
-/// One blind trial: an arm in which something is hidden, logged, diagnosed and scored.
+/// One blind trial: an arm with hidden effects, logged, diagnosed and scored.
 ///
 /// ```text
 /// scenario, hidden, seed --simulate--> *.parquet --diagnose--> diagnosis --\
@@ -21,36 +21,35 @@ use crate::trials::hidden::Hidden;
 /// with gains: diagnosis --> extended robot --torque, replay, tracking of the last run--> Gains
 /// ```
 ///
-/// The score depends on these fields alone: a trial can be made anywhere, at any time, and again.
+/// The score depends on these fields alone, so that a trial can be repeated anywhere and at any time.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Trial {
     /// The scenario to start from: the arm, its sensors and its runs.
     pub scenario: PathBuf,
-    /// What is hidden.
+    /// The hidden effects.
     pub hidden: Hidden,
-    /// Seed of every draw: place and size of what is hidden, noise of the sensors.
+    /// Seed of all random draws: places and sizes of the hidden effects, noise of the sensors.
     pub seed: u64,
-    /// Settings of the scenario besides, `key=value` as `--set` takes them.
+    /// Further settings of the scenario, `key=value` as `--set` takes them.
     pub settings: Vec<String>,
-    /// Whether its last run takes no part in the diagnosis and shows what that gains.
+    /// Whether the last run is held out from the diagnosis and shows its gain.
     pub gains: bool,
 }
 
 impl Trial {
-    /// Where it lies among others: `root/backlash/7`.
+    /// Path of its folder under `root`, such as `root/backlash/7`.
     pub fn folder(&self, root: &Path) -> PathBuf {
         root.join(self.hidden.to_string()).join(self.seed.to_string())
     }
 
     /// Simulates the logs into `folder`, diagnoses them through the files and scores the answer.
     ///
-    /// Logs that are there are used again where they are of the same scenario; its robot may then
-    /// lie elsewhere.
+    /// Existing logs of the same scenario are used again, even where its robot has moved to another path.
     ///
     /// # Errors
     ///
-    /// [`BenchmarkError`] when the scenario cannot be meant or simulated, a file cannot be
-    /// written or read, or the logs cannot be diagnosed.
+    /// [`BenchmarkError`] when the scenario cannot be used or simulated, a file cannot be written or read, or the
+    /// logs cannot be diagnosed.
     pub fn run(&self, folder: &Path) -> Result<Score, BenchmarkError> {
         let document = self.document()?;
         let scenario = Scenario::from_document(&document)?;
@@ -80,7 +79,7 @@ impl Trial {
         Ok(Score { gains: Some(gains), ..score })
     }
 
-    /// Whether a folder holds its logs, whole, so that they would be used again.
+    /// Whether a folder holds all logs of the trial, so that they can be used again.
     pub(super) fn is_logged(&self, folder: &Path) -> bool {
         self.scenario().is_ok_and(|scenario| holds(folder, &scenario))
     }
@@ -99,9 +98,8 @@ impl Trial {
     }
 }
 
-/// Diagnoses the logs of a folder as `plumbline diagnose` does, then opens `truth.json` and scores
-/// the answer. `robot` is the nominal one, `without` lists effects that the diagnosis does not look
-/// for.
+/// Diagnoses the logs of a folder as `plumbline diagnose` does, then opens `truth.json` and scores the answer.
+/// `robot` is the nominal robot, `without` lists effects that the diagnosis does not look for.
 ///
 /// # Errors
 ///
@@ -115,7 +113,7 @@ pub fn judge(
     score_answer(folder, &answer, without)
 }
 
-/// What a diagnosis that has nothing but the logs comes to.
+/// The outcome of a diagnosis that sees only the logs.
 fn answer(
     robot: &Loaded,
     runs: &[Run],
@@ -129,7 +127,7 @@ fn answer(
     Ok(diagnosis::diagnose(&robot.robot, runs, &settings, &Silent)?)
 }
 
-/// Opens the truth about a folder and scores the answer.
+/// Opens the truth of a folder and scores the answer.
 fn score_answer(
     folder: &Path,
     answer: &DiagnosisRun,

@@ -21,41 +21,40 @@ use crate::trials::campaign_folder::CampaignFolder;
 use crate::trials::part::Part;
 use crate::trials::record::Record;
 
-/// The workers of a campaign: how many, for which part, and what becomes of the logs.
+/// The workers of a campaign: their number, their part, and the handling of the logs.
 #[derive(Debug, Clone)]
 pub struct Workers {
-    /// Trials made at a time; none counts as one.
+    /// Number of trials made at a time; zero counts as one.
     pub jobs: usize,
-    /// The part of the campaign that is made.
+    /// The part of the campaign to make.
     pub part: Part,
-    /// What becomes of the logs.
+    /// The handling of the logs.
     pub logs: TrialLogs,
-    /// A folder with logs of a population: logs that it lacks are added, the others are read from
-    /// it.
+    /// A folder with logs of a population. Logs in it are read, and missing ones are added.
     pub store: Option<PathBuf>,
 }
 
-/// What becomes of the logs of a finished trial.
+/// Handling of the logs of a finished trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TrialLogs {
-    /// They are removed.
+    /// Logs are removed.
     Removed,
-    /// They stay under `logs/KIND/SEED`, and a later run reads them instead of simulating again.
+    /// Logs stay under `logs/KIND/SEED`, and a later run reads them instead of simulating again.
     Kept,
 }
 
-/// Hears of every trial that ends, and may stop the work.
+/// Receives every finished trial, and may stop the work.
 pub trait WorkProgress: Sync {
-    /// So many trials are left to make.
+    /// The work begins, with `left` trials to make.
     fn begin(&self, left: usize);
 
-    /// A trial has its shard; it took so long.
+    /// A trial has its shard, after the time `took`.
     fn finish_trial(&self, record: &Record, took: Duration);
 
-    /// An entry of the store could not be used, for this reason, and was made again.
+    /// An entry of the store was unusable for this reason, and was made again.
     fn report_remade(&self, entry: &Path, reason: &str);
 
-    /// Whether no further trial is to be begun.
+    /// Whether to begin no further trial.
     fn is_stopped(&self) -> bool;
 }
 
@@ -65,15 +64,14 @@ pub trait WorkProgress: Sync {
 /// task --simulate, diagnose, score--> shards/NNNNN.parquet, by rename
 /// ```
 ///
-/// A trial that cannot be simulated or diagnosed has a shard that says why. Trials that another
-/// process makes at the same time are left to it, as long as it lives: it holds a lock on a file,
-/// which falls with the process.
+/// A trial that cannot be simulated or diagnosed gets a shard with the reason. A trial that another live process is
+/// making is left to that process, which holds a lock on a file until it ends.
 ///
 /// # Errors
 ///
-/// [`BenchmarkError::NoStore`] when a store is given to a campaign that has none, and
-/// [`BenchmarkError`] when something cannot be written. No further trial is then begun, those
-/// that are being made are finished as far as possible, and every shard stays.
+/// [`BenchmarkError::NoStore`] when a store is given to a campaign that has none, and [`BenchmarkError`] when
+/// something cannot be written. No further trial is then begun, trials in progress are finished as far as possible,
+/// and every shard stays.
 pub fn work(
     folder: &CampaignFolder,
     workers: &Workers,
@@ -118,7 +116,7 @@ struct WorkerRun<'a> {
     store: Option<&'a Store>,
     progress: &'a dyn WorkProgress,
     left: &'a [usize],
-    /// The place in `left` of the trial that is to be begun next.
+    /// Index in `left` of the next trial to begin.
     next: AtomicUsize,
     ended: AtomicBool,
     failure: Mutex<Option<BenchmarkError>>,
@@ -177,7 +175,7 @@ impl WorkerRun<'_> {
     }
 }
 
-/// Removes the logs of a trial, whole or not.
+/// Removes the logs of a trial, complete or not.
 fn clear(logs: &Path) -> Result<(), BenchmarkError> {
     ignore_missing(std::fs::remove_dir_all(logs), logs)
 }
@@ -190,7 +188,7 @@ fn ignore_missing(removed: std::io::Result<()>, path: &Path) -> Result<(), Bench
     }
 }
 
-/// The score of a trial, or in words why it has none. A failing disk is an error.
+/// The score of a trial, or in words why there is none. A disk failure is an error instead.
 fn outcome_of<T>(
     outcome: Result<Result<T, BenchmarkError>, Box<dyn Any + Send>>,
 ) -> Result<Result<T, String>, BenchmarkError> {

@@ -46,18 +46,18 @@ pub(crate) struct Design {
     pub rate_hz: f64,
     /// The frame in which the columns were evaluated.
     pub frame: Frame,
-    /// Joints that moved; the rows of others take no part.
+    /// Joints that moved; the rows of the others are left out.
     pub moved: Vec<bool>,
     /// Which joints move in which run, `[run][joint]`.
     pub moves: Vec<Vec<bool>>,
-    /// Number of the motion of each run: runs that repeat a motion share it.
+    /// Index of the motion of each run: runs that repeat a motion share it.
     pub motion: Vec<usize>,
-    /// The signal that it explains.
+    /// The signal that the design explains.
     pub response: Response,
     pub priors: Priors,
 }
 
-/// A robot along all runs, and what the logs have of these.
+/// A robot evaluated along all runs, and the readings of the logs.
 struct MotionAndReadings<'a> {
     frame: Frame,
     along: &'a [Along<'a>],
@@ -106,7 +106,7 @@ impl Design {
         Ok(Self { moves: self.moves.clone(), motion: self.motion.clone(), ..design })
     }
 
-    /// The design of runs along which the robot was evaluated, with the readings of the logs.
+    /// The design from the robot's motions along the runs and the readings of the logs.
     fn assemble(
         robot: &Robot,
         log: &Log,
@@ -142,8 +142,8 @@ impl Design {
         Ok(design)
     }
 
-    /// Gives every distinct column an index and every hypothesis its columns; returns the
-    /// hypothesis and weight that each column comes from.
+    /// Gives every distinct column an index and every hypothesis its columns. Returns the hypothesis and weight that
+    /// each column comes from.
     fn lay_out(
         &mut self,
         robot: &Robot,
@@ -183,7 +183,7 @@ impl Design {
         origins
     }
 
-    /// What is assumed of every weight before any data.
+    /// The prior of every weight.
     pub fn weight_prior(&self) -> Prior<'_> {
         Prior { sd: &self.prior, bounds: &self.bounds }
     }

@@ -8,7 +8,7 @@ use crate::columns::run_design::{JointDesign, RunDesign};
 use crate::signals::along::{Along, minus};
 use crate::signals::response::Response;
 
-/// All columns of one run and the effort, low-passed alike and at the rate of the regression.
+/// All columns of one run and the effort, low-passed alike, at the rate of the regression.
 pub(crate) struct Evaluated {
     /// `[hypothesis][weight]`.
     pub columns: Vec<Vec<EffectColumn>>,
@@ -24,8 +24,7 @@ pub(crate) struct Evaluated {
 
 impl Evaluated {
     /// Evaluates `hypotheses` along a run.
-    ///
-    /// Every signal passes the same filter: what is measured, the same of the nominal robot, and
+    /// Measured effort, effort of the nominal robot and columns pass the same filter.
     /// columns.
     pub fn new(
         along: &Along,
@@ -59,8 +58,8 @@ impl Evaluated {
         })
     }
 
-    /// Compares the efforts with those of the robot as it was `described`; the difference of the evaluated robot from it
-    /// is a part that is explained already.
+    /// Compares the efforts with those of the robot as it was `described`. The difference between the two robots
+    /// counts as explained already.
     pub fn measure_from(&mut self, described: &Along) {
         for (j, effort) in described.motion.effort.iter().enumerate() {
             let effort = described.finish(j, effort.clone());
@@ -71,8 +70,8 @@ impl Evaluated {
         }
     }
 
-    /// The columns sorted into one matrix a joint: `local[j]` are the columns that reach
-    /// joint j, `origins` the hypothesis and weight of every column.
+    /// The columns sorted into one matrix a joint. `local[j]` are the columns that reach joint j, `origins` the
+    /// hypothesis and weight of every column.
     pub fn into_run(self, local: &[Vec<usize>], origins: &[(usize, usize)]) -> RunDesign {
         let Self { columns, name, time, readings, known, nominal, state, .. } = self;
         let matrix = |j: usize| {

@@ -1,5 +1,4 @@
-//! The regression problem: the columns of every hypothesis about a robot, and what they are to
-//! explain.
+//! The regression problem: the columns of every hypothesis about a robot, and the effort that they explain.
 //!
 //! ```text
 //! effort - nominal effort = sum over hypotheses of columns weights + noise

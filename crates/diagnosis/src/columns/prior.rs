@@ -1,4 +1,4 @@
-/// What is assumed of every weight before any data: a normal distribution within bounds.
+/// Prior of every weight: a normal distribution within bounds.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Prior<'a> {
     /// Standard deviations.

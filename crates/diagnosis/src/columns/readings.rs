@@ -3,12 +3,12 @@ use logs::LogError;
 use crate::signals::along::Along;
 use crate::signals::response::Response;
 
-/// The readings of one run, independent of the robot that is evaluated along it; signals are low-passed, at the rate of
-/// the regression.
+/// The readings of one run, which do not depend on the evaluated robot. Signals are low-passed, at the rate of the
+/// regression.
 #[derive(Debug, Clone)]
 pub(crate) struct Readings {
-    /// Efforts, or in a design of the twist the position that the first encoder reports minus that of the link,
-    /// `[joint][sample]`.
+    /// Efforts, `[joint][sample]`. In a design of the twist: the position that the first encoder reports minus that
+    /// of the link.
     pub measured: Vec<Vec<f64>>,
     /// See [`JointDesign::is_informative`](crate::columns::run_design::JointDesign::is_informative), `[joint][sample]`.
     pub is_informative: Vec<Vec<bool>>,

@@ -12,7 +12,7 @@ pub(crate) struct Runs<'a> {
     pub thresholds: &'a SignalThresholds,
 }
 
-/// Numbers the motions: a run that repeats an earlier one gets that one's number.
+/// Numbers the motions: a run that repeats an earlier run gets the number of that run.
 pub(crate) fn motions(design: Runs) -> Vec<usize> {
     let mut motion: Vec<usize> = Vec::new();
     for (r, run) in design.runs.iter().enumerate() {
@@ -22,9 +22,9 @@ pub(crate) fn motions(design: Runs) -> Vec<usize> {
     motion
 }
 
-/// Noise of every joint from runs that repeat a motion: `sqrt(mean((r_a - r_b)^2) / 2)` over all pairs of these, with
-/// `r` the residual of the nominal model, so that small differences of the motion cancel, over the samples that are
-/// informative in both.
+/// Noise of every joint from runs that repeat a motion: `sqrt(mean((r_a - r_b)^2) / 2)` over all pairs of these runs
+/// and all samples that are informative in both. `r` is the residual of the nominal model, so that small differences
+/// of the motion cancel.
 pub(crate) fn noise_of_repeats(design: Runs) -> Option<Vec<f64>> {
     let joints = design.moved.len();
     let (mut sum, mut count) = (vec![0.0; joints], vec![0_usize; joints]);

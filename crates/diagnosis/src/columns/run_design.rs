@@ -13,27 +13,27 @@ pub(crate) struct RunDesign {
     pub joints: Vec<JointDesign>,
 }
 
-/// One joint of a [`RunDesign`], all signals low-passed alike. Efforts, their known part and columns are zero while the
-/// joint stands.
+/// One joint of a [`RunDesign`], all signals low-passed alike. While the joint stands, its efforts, their known part
+/// and its columns are zero.
 #[derive(Debug, Clone)]
 pub(crate) struct JointDesign {
     /// Samples by local columns.
     pub x: DMatrix<f64>,
-    /// Measured effort (N·m or N); in a design of the twist, the position that the first encoder reports minus that of
-    /// the link (rad or m).
+    /// Measured effort (N·m or N). In a design of the twist: the position that the first encoder reports minus that
+    /// of the link (rad or m).
     pub measured: Vec<f64>,
-    /// Part of the effort that is explained already: by tones, by a torque limit, by second encoders (N·m or N); empty
-    /// where nothing is.
+    /// Part of the effort that tones, a torque limit or second encoders explain already (N·m or N); empty where there
+    /// is none.
     pub known: Vec<f64>,
     /// The same signal of the nominal robot.
     pub nominal: Vec<f64>,
     /// Position, velocity and acceleration.
     pub state: [Vec<f64>; 3],
-    /// Whether a sample is informative about the effort: most of what the low-pass takes into it is of the joint while it
-    /// moves. While it stands, dry friction holds it with any part of its level.
+    /// Whether a sample is informative about the effort: most of the signal that the low-pass mixes into it comes
+    /// from the moving joint. While the joint stands, dry friction holds it with any part of its level.
     pub is_informative: Vec<bool>,
-    /// Whether the joint slides. Where its direction changes, dry friction is anything up to its level, which no model can
-    /// predict.
+    /// Whether the joint slides. Where its direction changes, dry friction has any value up to its level, which no
+    /// model can predict.
     pub slides: Vec<bool>,
 }
 

@@ -11,11 +11,12 @@ use crate::columns::design::Design;
 use crate::signals::along::Along;
 use crate::signals::log::Log;
 
-/// Trial shapes that are evaluated at once: before they are thinned their columns are as long as the motion.
+/// Number of trial shapes that are evaluated at once: before they are decimated, their columns are as long as the
+/// motion.
 const AT_ONCE: usize = 8;
 
-/// The robot with the best trial shape of every effect whose columns are not linear in one of its parameters: the trial
-/// value that explains most of what the linear effects leave.
+/// The robot with the best trial shape of every effect whose columns are not linear in one of its parameters. The
+/// best value explains most of the residual of the linear effects.
 ///
 /// With `X` the columns of the linear effects, `C` those of a trial shape and `r = y - X w`,
 ///
@@ -23,7 +24,7 @@ const AT_ONCE: usize = 8;
 /// explained = r' C (C' C - C' X (X' X + 1 / prior^2)^-1 X' C)^-1 C' r
 /// ```
 ///
-/// over the joints that the shape reaches, each weighted by one over the power of its `r`.
+/// summed over the joints that the shape reaches, each weighted by the inverse power of its `r`.
 pub(crate) fn with_best_shapes(robot: &Robot, log: &Log) -> Result<Robot, LogError> {
     let (prepared, moved) = (log.prepared, log.moved);
     let relevant = |g: &TrialShape| {
@@ -75,20 +76,20 @@ fn columns(shapes: &[TrialShape], runs: &mut [Along]) -> Vec<Vec<Vec<EffectColum
     all
 }
 
-/// The linear effects at one joint, and the effort that they leave.
+/// The linear effects at one joint, and the residual effort after them.
 pub(crate) struct LinearRest {
     /// Columns of those effects over all runs.
     pub x: DMatrix<f64>,
-    /// Normal matrix with the priors.
+    /// Normal matrix including the priors.
     pub normal: Cholesky<f64, Dyn>,
     /// Measured minus nominal effort over all runs (N·m or N).
     pub y: DVector<f64>,
-    /// One over the variance of each weight before any data, in units of the power of `y`.
+    /// Inverse prior variance of each weight, in units of the power of `y`.
     pub ridge: DVector<f64>,
     pub residual: DVector<f64>,
-    /// One over the mean square of the residual.
+    /// Inverse mean square of the residual.
     weight: f64,
-    /// One where a sample is informative, else zero; rows of the others are zero too.
+    /// One where a sample is informative, else zero. The other rows of `x` and `y` are zero too.
     pub is_informative: DVector<f64>,
 }
 
@@ -126,8 +127,8 @@ impl LinearRest {
     }
 }
 
-/// Power of the remaining efforts that the columns of one trial shape, `[run][weight]`, explain, in units of their mean
-/// squares.
+/// Power of the residual efforts that the columns of one trial shape, `[run][weight]`, explain, in units of their
+/// mean squares.
 fn explained_power(left: &[Option<LinearRest>], runs: &[Vec<EffectColumn>]) -> Option<f64> {
     let width = runs.first()?.len();
     let (mut normal, mut score) = (DMatrix::zeros(width, width), DVector::zeros(width));

@@ -16,8 +16,8 @@ use crate::thresholds::limits::LimitThresholds;
 /// Number of trial limits, which are quantiles of the absolute effort.
 const TRIALS: usize = 24;
 
-/// Torque limits: joints whose effort beyond some limit moves nothing. Only commands can exceed a limit, measured efforts
-/// are torque.
+/// Torque limits: joints at which effort beyond some limit moves nothing. Only commands can exceed a limit; measured
+/// efforts are torque.
 ///
 /// ```text
 /// clamp(effort, -limit, limit) - nominal = columns w + noise
@@ -70,8 +70,8 @@ fn trial(runs: &[Along], left: &LinearRest, limit: &Limit) -> Result<Trial, LogE
     Ok(Trial { deviance, rest, beyond })
 }
 
-/// Whether effort beyond the limit moves nothing: the other effects, fitted to the samples below the limit, predict the
-/// clamped effort above it and fail to predict the whole one.
+/// Whether effort beyond the limit moves nothing. The other effects are fitted to the samples below the limit; above
+/// it they must predict the clamped effort and fail to predict the whole effort.
 fn moves_nothing(left: &LinearRest, beyond: &DVector<f64>, t: &LimitThresholds) -> bool {
     let touched = t.touched * beyond.amax();
     let informative = (0..beyond.len()).filter(|&k| left.is_informative[k] > 0.0);

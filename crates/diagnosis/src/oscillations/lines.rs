@@ -6,13 +6,13 @@ use crate::thresholds::tones::ToneThresholds;
 pub(crate) struct Oscillations {
     /// Oscillations of one period each.
     pub tones: Vec<Tone>,
-    /// Joints, by their index, that ring in a band, and the middle of the band (Hz).
+    /// Joints, by index, that ring in a band, with the middle of the band (Hz).
     pub ringing: Vec<(usize, f64)>,
 }
 
 impl Oscillations {
-    /// Adds the lines of one joint, the strongest first. Weak lines beside a strong one come from its varying amplitude and
-    /// are no tones; lines of one size side by side are a band that rings.
+    /// Adds the lines of one joint, the strongest first. Weak lines beside a strong one come from its varying
+    /// amplitude and are left out. Lines of equal size side by side are a band in which the joint rings.
     pub fn add(&mut self, lines: Vec<Tone>, t: &ToneThresholds) {
         let is_beside = |a: &Tone, b: &Tone| match (a.beat, b.beat) {
             (Beat::Clock(a), Beat::Clock(b)) | (Beat::Position(a), Beat::Position(b)) => {

@@ -2,7 +2,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 
 use crate::signals::along::Wave;
 
-/// Rounds of Gauss-Newton: the first one fits the amplitudes, the others the beat too.
+/// Rounds of Gauss-Newton: the first fits the amplitudes, the others the beat too.
 const ROUNDS: usize = 5;
 
 /// A sine of one beat in the residual of a joint, by least squares in every run.
@@ -11,16 +11,16 @@ const ROUNDS: usize = 5;
 /// left_r = Re(z_r L exp(i at (beat - origin_r))),   L the low-pass of the logs
 /// ```
 ///
-/// by Gauss-Newton in `at` and all `z`. Over position, a projection onto `exp(i at beat)` would be some per cent off: the
-/// phase stands still where a joint turns or stands, and the sum of `exp(2 i at beat)` does not vanish.
+/// by Gauss-Newton in `at` and all `z`. Over position, a projection onto `exp(i at beat)` would be some per cent off:
+/// the phase is constant where a joint turns or stands, so that the sum of `exp(2 i at beat)` does not vanish.
 #[derive(Debug, Clone)]
 pub(crate) struct ToneFit {
     /// Phase per unit of beat (rad/s; 1 or rad/m).
     pub at: f64,
     /// `z` at beat zero, of every run (N·m or N).
     pub z: Vec<Complex<f64>>,
-    /// Variances of mean amplitude, of `at` and of the phase at beat zero, over that of a sample of
-    /// white noise.
+    /// Variances of the mean amplitude, of `at` and of the phase at beat zero, in variances of a sample of white
+    /// noise.
     pub variances: [f64; 3],
 }
 
@@ -35,7 +35,7 @@ pub(crate) struct Sampled<'a> {
     pub origin: f64,
 }
 
-/// The runs that share one `z`.
+/// Which runs share one `z`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Coherence {
     AllRuns,
@@ -43,8 +43,8 @@ pub(crate) enum Coherence {
 }
 
 impl ToneFit {
-    /// Starts from a phase per unit of beat, which changes by no more than `step` in a round; `wave` is the sine of a run.
-    /// `None` where the runs do not determine it.
+    /// Starts from a phase per unit of beat, which changes by at most `step` in a round. `wave` is the sine of a run.
+    /// `None` where the runs do not determine the fit.
     pub fn new(
         runs: &[Sampled],
         coherence: Coherence,

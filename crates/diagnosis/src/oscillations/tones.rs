@@ -18,30 +18,30 @@ use crate::thresholds::tones::ToneThresholds;
 /// Order of the low-pass of a band in which a tone is compared with the rest.
 const ORDER: usize = 4;
 
-/// Zeros that are added to a run before its spectrum is taken, in lengths of the longest.
+/// Number of zeros that are appended to a run before its spectrum is taken, in lengths of the longest run.
 const PADDED: usize = 4;
 
-/// Values on either side of a line that are just beside it: eight times its width.
+/// Number of values on either side of a line that are just beside it: eight times its width.
 const BESIDE: usize = 32;
 
-/// Frequencies whose median is the power around them.
+/// Number of frequencies whose median is the power around them.
 const AROUND: usize = 200;
 
-/// Which tones of a log are asked for.
+/// Conditions for the tones of a log.
 pub(crate) struct ToneQuestion<'a> {
-    /// Frequency below which a line may be the motion's (Hz).
+    /// Frequency below which a line may come from the motion (Hz).
     pub slowest_hz: f64,
     /// Least fall of the RMS error of each joint that counts (N·m or N).
     pub practical: &'a [f64],
-    /// Least share of the remaining error of a joint.
+    /// Least share of the residual of a joint.
     pub open_share: f64,
 }
 
-/// The oscillations in the remaining efforts of `robot` in a wide band, at the joints that moved: lines of the spectrum
-/// over time and over position that stand out in every run and lower the error by enough.
+/// The oscillations in the residual efforts of `robot` in a wide band, at the joints that moved: lines of the
+/// spectrum over time and over position that stand out in every run and lower the error by enough.
 ///
-/// A line that is as slow as the motion counts where it is most of the remaining effort at all times, and at some of these
-/// no joint moves much at its frequency.
+/// A line as slow as the motion counts under two conditions: it is most of the residual at all times, and at some
+/// times no joint moves much at its frequency.
 pub(crate) fn tones(
     robot: &Robot,
     wide: &Prepared,
@@ -73,14 +73,15 @@ pub(crate) fn tones(
     Ok(found)
 }
 
-/// Least fall of the RMS error that counts (N·m or N), and least share of the remaining power.
+/// Least fall of the RMS error that counts (N·m or N), and least share of the residual's power.
 #[derive(Debug, Clone, Copy)]
 struct Least {
     rms: f64,
     share: f64,
 }
 
-/// Cut-offs of the wide band and of the diagnosis, and the frequency below which a line may be the motion's (Hz).
+/// Cut-offs of the wide band and of the diagnosis, and the frequency below which a line may come from the motion
+/// (Hz).
 #[derive(Debug, Clone, Copy)]
 struct Bands {
     cutoff_hz: f64,
@@ -95,7 +96,7 @@ enum Follows {
     Clock,
 }
 
-/// One joint: its residual in every run, and the variable that a tone in it may follow.
+/// One joint: its residual in every run, and the variable that the phase of a tone in it may follow.
 struct Joint<'a> {
     index: usize,
     least: Least,
@@ -149,8 +150,8 @@ fn at_joint(runs: &[Rest], j: usize, least: Least, bands: Bands, t: &ToneThresho
     tones
 }
 
-/// Whether a tone is faster than the band of the diagnosis, or half of the remaining effort in it (RMS). In that band an
-/// effect that was not found has lines too, which the motion makes.
+/// Whether a tone is faster than the band of the diagnosis, or at least half of the residual in it (RMS). In that
+/// band an effect that was not found has lines too, which come from the motion.
 fn is_much_of_its_band(tone: &Tone, clock: &Joint, band_hz: f64) -> bool {
     let Beat::Clock(frequency_hz) = tone.beat else { return false };
     let power = |left: &[Vec<f64>]| -> f64 {
@@ -163,7 +164,7 @@ fn is_much_of_its_band(tone: &Tone, clock: &Joint, band_hz: f64) -> bool {
     }
 }
 
-/// Whether a slow tone is most of the remaining effort in every window, and in some windows no joint has much of its
+/// Whether a slow tone is most of the residual in every window, and some windows have no joint with much of its
 /// velocity at the frequency of the tone.
 fn is_no_motion(tone: &Tone, clock: &Joint, slowest_hz: f64) -> bool {
     let Beat::Clock(frequency_hz) = tone.beat else { return false };
@@ -220,22 +221,22 @@ fn windows(time: &[f64], window_s: f64) -> Vec<Range<usize>> {
 struct Spectrum {
     /// `[run][value]`
     powers: Vec<Vec<f64>>,
-    /// The first value, a phase per unit of beat.
+    /// The first value of the phase per unit of beat.
     first: f64,
-    /// Distance to the next one.
+    /// Distance between neighbouring values.
     step: f64,
 }
 
 /// A line of a spectrum.
 #[derive(Debug, Clone)]
 struct Line {
-    /// Its place in the spectrum.
+    /// Index of the line in the spectrum.
     index: usize,
     /// Phase per unit of beat.
     at: f64,
-    /// Distance to the next value that was looked at.
+    /// Distance between neighbouring values of the spectrum.
     step: f64,
-    /// Its power in every run.
+    /// Power of the line in every run.
     power: Vec<f64>,
 }
 
@@ -248,8 +249,8 @@ impl Joint<'_> {
         }
     }
 
-    /// The tone of the strongest line of a spectrum, where it stands out in every run from the spectrum without it: the line
-    /// itself is wide, especially over position.
+    /// The tone of the strongest line of a spectrum, if in every run it stands out from the spectrum without it. The
+    /// tone is removed for this comparison because a line is wide, especially over position.
     fn strongest_tone(&self, spectrum: impl Fn(&Joint) -> Option<Spectrum>) -> Option<Tone> {
         let line = spectrum(self)?.line()?;
         let mut tone = self.tone(&line)?;
@@ -291,8 +292,8 @@ impl Joint<'_> {
         Some(Spectrum { powers, first, step })
     }
 
-    /// `|sum r exp(-i periods q)|^2 / n` of one run over the samples that count, until fewer than
-    /// a spectrum needs are left.
+    /// `|sum r exp(-i periods q)|^2 / n` of one run over the samples that count. It ends where fewer samples are left
+    /// than a spectrum needs.
     fn scan(&self, r: usize, first: f64, step: f64, count: usize) -> Vec<f64> {
         let mut order: Vec<usize> = (0..self.left[r].len()).collect();
         order.sort_by(|&a, &b| self.highest[r][b].total_cmp(&self.highest[r][a]));
@@ -339,8 +340,8 @@ impl Joint<'_> {
         Some(Spectrum { powers, first: TAU * first as f64 * step, step: TAU * step })
     }
 
-    /// The tone of a line, where it has the same amplitude in all runs and is large enough; its errors are those of noise of
-    /// variance one.
+    /// The tone of a line, if it has the same amplitude in all runs and is large enough. Its errors are those for
+    /// noise of variance one.
     fn tone(&self, line: &Line) -> Option<Tone> {
         let runs = 0..self.left.len();
         let power = |at: f64| -> f64 {
@@ -439,7 +440,7 @@ impl Spectrum {
         self.powers.iter().map(Vec::len).min().unwrap_or(0)
     }
 
-    /// The line that stands out most from the powers around it, in the run where it stands out least.
+    /// The line that stands out most from the power around it, judged by the run in which it stands out least.
     fn line(&self) -> Option<Line> {
         let length = self.len();
         let around: Vec<Vec<f64>> = self.powers.iter().map(|p| around(&p[..length])).collect();
@@ -451,8 +452,8 @@ impl Spectrum {
         Some(Line { index, at, step, power: self.powers.iter().map(|p| p[index]).collect() })
     }
 
-    /// Variance of white noise with the power just beside a value, or around it if that is more. The part of a strong tone
-    /// that is no sine lies there.
+    /// Variance of white noise with the power just beside a value, or with the power around it if that is larger. A
+    /// strong tone that is no pure sine leaks power there.
     fn beside(&self, index: usize, around: &[f64]) -> f64 {
         let of = |(power, around): (&Vec<f64>, &f64)| {
             let near = &power[index.saturating_sub(BESIDE)..(index + BESIDE + 1).min(power.len())];
@@ -468,8 +469,8 @@ impl Spectrum {
     }
 }
 
-/// The power around every value of a spectrum: the median of its neighbours, which for noise is
-/// `ln 2` of the mean.
+/// The mean power of the noise around every value of a spectrum: the median of a block of neighbours over `ln 2`, the
+/// largest of three blocks.
 fn around(power: &[f64]) -> Vec<f64> {
     let median = |block: &[f64]| {
         let mut sorted = block.to_vec();

@@ -21,7 +21,7 @@ use crate::signals::along::REGRESSION_RATE;
 use crate::signals::tone::Tone;
 
 impl Inputs<'_> {
-    /// Assembles the diagnosis; `data.runs` and `warnings` are left for the caller.
+    /// Assembles the diagnosis; the caller fills `data.runs` and `warnings`.
     pub fn assemble(&self, dataset: &Dataset, tested: &TestedFindings) -> Diagnosis {
         let t = self.thresholds();
         let noise = TorqueNoise::new(self.nominal, self.design, self.log.prepared, &t.signals);
@@ -119,8 +119,8 @@ impl Inputs<'_> {
         }
     }
 
-    /// RMS of the described dry friction at moments at which the joint changes its direction, where it may be anything up to
-    /// its level (N·m or N):
+    /// RMS of the described dry friction near changes of direction, where it may have any value up to its level (N·m
+    /// or N):
     ///
     /// ```text
     /// level sqrt(share / 3)   with `share` of the informative samples near a change of direction
@@ -223,7 +223,7 @@ fn matters(found: &FindingWithFall, least: &[f64]) -> bool {
     found.fall.iter().zip(least).any(|(fall, least)| *fall > least.powi(2))
 }
 
-/// Number of independent samples in the band, were the residual noise: two a cut-off of 2.5.
+/// Number of independent samples in the band if the residual were noise: two per 2.5 samples.
 fn independent(left: &[Vec<f64>]) -> f64 {
     left.iter().map(Vec::len).sum::<usize>() as f64 * 2.0 / REGRESSION_RATE
 }

@@ -16,15 +16,15 @@ use crate::search::select::Selection;
 use crate::search::twins::Separated;
 use crate::signals::response::Response;
 
-/// A finding, and how much it lowers the error of each joint.
+/// A finding, and the fall of the error at each joint that it causes.
 #[derive(Debug, Clone)]
 pub(crate) struct FindingWithFall {
     pub finding: Finding,
-    /// Fall of the held-out mean square of every joint when it is added to the others.
+    /// Fall of the held-out mean square at every joint when the finding is added to the others.
     pub fall: Vec<f64>,
 }
 
-/// Held-out errors of the nominal model, of the model without a finding and of that with it.
+/// Held-out errors of the nominal model, of the model without a finding, and of the model with it.
 #[derive(Clone, Copy)]
 struct Errors<'a> {
     nominal: &'a HeldOutResiduals,
@@ -39,7 +39,7 @@ pub(crate) struct FindingBuilder<'a> {
     pub model: &'a HypothesisSet,
     /// Findings, each with a twin that does worse in its place.
     pub separated: &'a Separated,
-    /// Effects that are no findings because their sizes would have to vary.
+    /// Effects that are excluded because their sizes would have to vary.
     pub inconstant: &'a Inconstant,
     /// Joints that keep their description.
     pub kept_nominal: &'a KeptNominal,
@@ -82,8 +82,8 @@ impl FindingBuilder<'_> {
         found
     }
 
-    /// The finding whose columns are tangents, where there is just one: whatever the last fit explains beyond the tangents is
-    /// due to it.
+    /// The finding whose columns are tangents, if there is exactly one. All that the last fit explains beyond the
+    /// tangents is then due to it.
     fn only_tangent(&self) -> Option<usize> {
         let groups = &self.selection.problem.design.groups;
         let mut tangents =
@@ -91,16 +91,16 @@ impl FindingBuilder<'_> {
         tangents.next().filter(|_| tangents.next().is_none())
     }
 
-    /// The finding that is reported in place of `g`, the Coulomb friction of a joint: the first one of the model that says
-    /// how its level varies.
+    /// The finding that replaces `g`, the Coulomb friction of a joint, in the report: the first in the model that
+    /// makes its level vary.
     fn modifier_of(&self, g: usize) -> Option<usize> {
         let hypothesis = |g: usize| self.selection.problem.design.groups[g].hypothesis;
         let modifies = |m: &usize| hypothesis(*m).varies() == Some(hypothesis(g));
         self.model.iter().copied().find(modifies)
     }
 
-    /// Forms of dry friction that these logs would not show beside Coulomb friction `g` even at half its level: they differ
-    /// near rest, or at positions that the logs do not reach.
+    /// Forms of dry friction that these logs would not show beside Coulomb friction `g` even at half its level. They
+    /// differ from it near rest, or at positions that the logs do not reach.
     fn hidden_beside(&self, g: usize, fitted: &LinearFit) -> Vec<usize> {
         let problem = self.selection.problem;
         let design = problem.design;
@@ -117,8 +117,8 @@ impl FindingBuilder<'_> {
         forms.into_iter().filter(|h| !self.model.contains(h)).filter(too_small).collect()
     }
 
-    /// Effects that explain as much as finding `g` and others of the model together, such as asymmetric friction for Coulomb
-    /// friction and an offset of the same joint.
+    /// Effects that explain as much as finding `g` together with other findings, such as asymmetric friction for
+    /// Coulomb friction and an offset of the same joint.
     fn one_for_several(&self, g: usize) -> Vec<usize> {
         let design = self.selection.problem.design;
         let own = design.groups[g].hypothesis;
@@ -134,8 +134,8 @@ impl FindingBuilder<'_> {
         (0..design.groups.len()).filter(may_be).collect()
     }
 
-    /// Simpler effects that are finding `g` together with one of its `rivals`, such as Coulomb friction beside an offset for
-    /// asymmetric friction.
+    /// Simpler effects that are equivalent to finding `g` when combined with one of its `rivals`, such as Coulomb
+    /// friction with an offset for asymmetric friction.
     fn plain_parts(&self, g: usize, rivals: &[usize]) -> Vec<usize> {
         let design = self.selection.problem.design;
         let group = &design.groups[g];

@@ -4,11 +4,11 @@ use crate::search::causes::Causes;
 use crate::search::dataset::Dataset;
 use crate::search::inputs::Inputs;
 
-/// Causes as findings, and the hypotheses that are none.
+/// Causes as findings, and the hypotheses that are ruled out.
 pub(crate) struct Findings {
     pub found: Vec<FindingWithFall>,
     pub ruled_out: Vec<RuledOut>,
-    /// The smallest level of dry friction that would have been found at every joint (N·m or N).
+    /// The smallest level of dry friction at every joint that the logs would have shown (N·m or N).
     pub unseen_friction: Vec<f64>,
 }
 

@@ -5,22 +5,22 @@ use crate::regression::problem::Problem;
 use crate::result::{FoldGain, InverseGain};
 use crate::search::dataset::Dataset;
 
-/// Torque prediction on parts of the logs that took no part in selection or fit.
+/// Torque prediction on held-out parts of the logs, which neither selection nor fit has seen.
 #[derive(Debug)]
 pub(crate) struct HeldOutGain {
-    /// For the user.
+    /// The gain as the diagnosis reports it.
     pub inverse: InverseGain,
-    /// The model that is found without each fold.
+    /// The model found without each fold.
     pub folds: Vec<FittedModel>,
 }
 
 impl HeldOutGain {
-    /// From the models that are found without each fold of `whole`.
+    /// The gain of the models that were found without each fold of `whole`.
     pub fn new(dataset: &Dataset, whole: &Problem, folds: Vec<FittedModel>) -> Self {
         Self { inverse: inverse(dataset, whole, &folds), folds }
     }
 
-    /// Residuals in every fold of `whole` of the model found without it, `[joint][run][sample]` (N·m or N).
+    /// Residuals in every fold of `whole`, by the model found without it, `[joint][run][sample]` (N·m or N).
     pub fn held_out_residuals(&self, whole: &Problem) -> Vec<Vec<Vec<f64>>> {
         whole.held_out_residuals(|f, run, j| self.folds[f].remaining(whole.design, run, j))
     }
@@ -65,7 +65,7 @@ fn inverse(dataset: &Dataset, whole: &Problem, fitted: &[FittedModel]) -> Invers
     }
 }
 
-/// Sum of squares and number of the informative residuals of joint `j` in the test of a fold.
+/// Sum of squares and number of the informative residuals of joint `j` in the test blocks of a fold.
 fn squares(whole: &Problem, fold: &Fold, fitted: &FittedModel, j: usize) -> (f64, usize) {
     let in_run = |run: usize| {
         let blocks = fold.test.iter().map(|&b| &whole.blocks[b]).filter(move |b| b.run == run);
@@ -95,7 +95,7 @@ fn name(whole: &Problem, f: usize) -> String {
     held.iter().map(|&r| runs[r].name.as_str()).collect::<Vec<_>>().join(" + ")
 }
 
-/// Whether parts of runs are held out rather than runs.
+/// Whether parts of runs are held out rather than whole runs.
 fn is_in_parts(whole: &Problem) -> bool {
     let run = |b: &usize| whole.blocks[*b].run;
     let is_torn =

@@ -3,12 +3,12 @@ use robot::Robot;
 use crate::columns::design::Design;
 use crate::regression::blocks::Block;
 
-/// A part of the logs that was held out, and the robot with what is found without it.
+/// A held-out part of the logs, and the robot with the findings of the rest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeldOutPart {
-    /// What was held out.
+    /// The held-out stretches.
     pub test: Vec<Span>,
-    /// What causes and sizes were found on: the rest, without what lies next to the test.
+    /// The stretches in which causes and sizes were found: the rest, without the neighbours of the test.
     pub train: Vec<Span>,
     /// The robot with the findings of `train`.
     pub extended: Robot,
@@ -19,11 +19,11 @@ pub struct HeldOutPart {
 pub struct Span {
     /// Index of the run.
     pub run: usize,
-    /// Its first time, and the time at which it is over (s).
+    /// Times of the first sample and of the end (s).
     pub time_s: [f64; 2],
 }
 
-/// The stretches that some blocks, in order, cover.
+/// The stretches that some blocks cover, given in increasing order; neighbours form one stretch.
 pub(crate) fn spans(design: &Design, blocks: &[Block], of: &[usize]) -> Vec<Span> {
     let mut spans: Vec<Span> = Vec::new();
     let mut last: Option<&Block> = None;

@@ -1,10 +1,10 @@
 use robot::{Robot, TorqueSource};
 
-/// Warns that the time skew found equals the hold of an undeclared zero-order hold.
+/// Warns when the time skew found equals the effect of a zero-order hold that is not described.
 ///
-/// A command that is held for `T` from its sample on acts `T / 2` later, so that the log is early: a skew of `-T / 2`. A
-/// described command without a rate is taken to be held for a row `I` ([`logs::centre_commands`]), which leaves
-/// `(I - T) / 2`.
+/// A command that is held for `T` from its sample on acts `T / 2` later on average. The log is then early: a skew of
+/// `-T / 2`. A described command without a rate counts as held for one row `I` ([`logs::centre_commands`]), which
+/// leaves a skew of `(I - T) / 2`.
 pub(crate) fn words_for_hold(robot: &Robot, extended: &Robot, row_s: f64) -> Option<String> {
     let (first, found) = robot.links().first().zip(extended.links().first())?;
     let skew_s = found.actuator.effort_skew_s - first.actuator.effort_skew_s;

@@ -1,5 +1,5 @@
-//! The answer: findings with sizes and rivals, reasons against other effects, the gain on held-out data, what remains and
-//! the verdict of every joint.
+//! The answer: findings with sizes and rivals, reasons against other effects, the gain on held-out data, the rest,
+//! and the verdict of every joint.
 
 pub(crate) mod assemble;
 pub(crate) mod effect_at;

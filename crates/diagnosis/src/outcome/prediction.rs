@@ -18,8 +18,8 @@ use crate::search::kept_nominal::{KeptNominal, joints_predicted_worse};
 use crate::search::search_result::SearchResult;
 
 impl Inputs<'_> {
-    /// Keeps the causes that predict held-out efforts better than the description, and measures by how much. A joint where
-    /// none does keeps its description.
+    /// Keeps the causes that predict held-out efforts better than the description, and measures by how much. A joint
+    /// without such causes keeps its description.
     pub fn keep_what_predicts<'b>(
         &self,
         dataset: &Dataset<'b>,
@@ -70,7 +70,8 @@ impl Inputs<'_> {
         Ok(HeldOutGain::new(dataset, by_run, folds))
     }
 
-    /// Fits the model of a search without the excluded effects, each replaced by a special case where one qualifies.
+    /// Fits the model of a search without the excluded effects. Each of these is replaced by a special case where one
+    /// qualifies.
     fn fit_without(
         &self,
         exclusions: Exclusions,
@@ -92,13 +93,13 @@ impl Inputs<'_> {
     }
 }
 
-/// Effects that a fold may find and that take no part in its prediction.
+/// Effects that a fold may find but that take no part in its prediction.
 #[derive(Clone, Copy)]
 struct Exclusions<'a> {
     /// Effects whose sizes would have to vary over all blocks.
     inconstant: &'a Inconstant,
     kept_nominal: &'a KeptNominal,
-    /// Joints that the unrestricted searches predict worse than the description does.
+    /// Joints at which the unrestricted searches predict worse than the description.
     doubted: &'a BTreeSet<usize>,
 }
 
@@ -110,8 +111,8 @@ impl Exclusions<'_> {
         remaining
     }
 
-    /// An effect at a doubted joint that is not sound about the fitted robot, such as bristles whose way the encoder does
-    /// not resolve, which have a damping of any size.
+    /// An effect at a doubted joint that is not sound about the fitted robot. An example is presliding over a way
+    /// that the encoder does not resolve, whose damping may have any size.
     fn unsound(self, problem: &Problem, model: &HypothesisSet, robot: &Robot) -> Option<usize> {
         model.iter().copied().find(|&g| {
             let group = &problem.design.groups[g];

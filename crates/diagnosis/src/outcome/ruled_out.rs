@@ -10,7 +10,7 @@ use crate::result::RuledOut;
 use crate::search::constancy::Variation;
 
 impl FindingBuilder<'_> {
-    /// Every hypothesis that is no finding, with the smallest size that would have been found.
+    /// Every hypothesis that is not a finding, with the smallest size that the logs would have shown.
     pub fn rule_out_others(&self) -> Vec<RuledOut> {
         let problem = self.selection.problem;
         let Some(fit) = problem.fit(self.model) else { return Vec::new() };
@@ -36,8 +36,8 @@ impl FindingBuilder<'_> {
         }
     }
 
-    /// The smallest level of dry friction that would have been found at every joint where none was (N·m or N); zero where a
-    /// form of it is a finding, or none is looked for.
+    /// The smallest level of dry friction that the logs would have shown at every joint without a finding of it (N·m
+    /// or N). Zero where a form of it is a finding or none is looked for.
     pub fn unseen_friction(&self) -> Vec<f64> {
         let problem = self.selection.problem;
         let fit = problem.fit(self.model);
@@ -50,8 +50,8 @@ impl FindingBuilder<'_> {
         (0..problem.design.joints()).map(|j| unseen(j).unwrap_or(0.0)).collect()
     }
 
-    /// The smallest weight of the first column of `g` that would have been found, whatever its shape, and of a wave whatever
-    /// its phase; `None` where the logs do not show the column.
+    /// The smallest weight of the first column of `g` that the logs would have shown for any shape, and for any phase
+    /// of a wave. `None` where the logs do not show the column.
     pub fn smallest(&self, g: usize, fit: &Fit) -> Option<f64> {
         let problem = self.selection.problem;
         let columns = problem.new_columns(self.model, g);
@@ -73,8 +73,8 @@ impl FindingBuilder<'_> {
         )
     }
 
-    /// The parameter that the logs show best, with the smallest size of it that would have been found, and the reason why the
-    /// hypothesis is no finding.
+    /// The parameter that the logs show best with its smallest detectable size, and the reason why the hypothesis is
+    /// not a finding.
     fn judge(&self, g: usize, fit: &Fit) -> (Option<(usize, f64)>, String) {
         let problem = self.selection.problem;
         let columns = problem.new_columns(self.model, g);
@@ -90,7 +90,7 @@ impl FindingBuilder<'_> {
         (Some(sharpest), self.reason(g, fit))
     }
 
-    /// Why a hypothesis whose size the logs would show is no finding: the first test of the search that it fails.
+    /// Why a hypothesis whose size the logs would show is not a finding: the first test of the search that it fails.
     fn reason(&self, g: usize, fit: &Fit) -> String {
         let (selection, problem) = (self.selection, self.selection.problem);
         let gain = selection.evidence_gain(self.model, fit, g);
@@ -125,8 +125,8 @@ impl FindingBuilder<'_> {
         )
     }
 
-    /// Index and smallest detectable size of the parameter whose standard error is the smallest share of its prior; `None`
-    /// if all are near the prior.
+    /// Index and smallest detectable size of the parameter whose standard error is the smallest share of its prior;
+    /// `None` if all standard errors are near the prior.
     fn sharpest(&self, g: usize, columns: &[usize], errors: &[f64]) -> Option<(usize, f64)> {
         let design = self.selection.problem.design;
         let hypothesis = design.groups[g].hypothesis;
@@ -144,7 +144,8 @@ impl FindingBuilder<'_> {
 }
 
 /// The parameter that the weight with index `weight` stands for, and its value for a size of the weight. The weight of a
-/// spring is its compliance; friction beyond the Coulomb level is that of breaking away, or the elastic part.
+/// spring is its compliance. The weight of Stribeck or presliding friction is reported as the parameter that the logs
+/// would show ([`Weights::SeenBy`]).
 fn parameter_of(kind: EffectKind, weight: usize, size: Option<f64>) -> (usize, Option<f64>) {
     match effects::model(kind).map(|model| model.traits().weights) {
         Ok(Weights::Reciprocal) => (weight, size.map(f64::recip)),
@@ -153,8 +154,8 @@ fn parameter_of(kind: EffectKind, weight: usize, size: Option<f64>) -> (usize, O
     }
 }
 
-/// Standard errors of the weights of a group that is not in the model: the larger of those by the likelihood and by the
-/// scatter of the blocks' scores.
+/// Standard errors of the weights of a group outside the model: the larger of those by the likelihood and those by
+/// the scatter of the blocks' scores.
 fn standard_errors(problem: &Problem, fit: &Fit, complement: &Complement) -> Vec<f64> {
     let count = complement.b.nrows();
     let Some(inverse) = complement.b.clone().try_inverse() else {

@@ -9,7 +9,7 @@ use crate::search::inputs::Inputs;
 use crate::settings::Settings;
 use crate::signals::log::Log;
 
-/// Effects between motors and links, as second encoders at the links show them.
+/// Findings between motors and links, as second encoders at the links show them.
 #[derive(Debug)]
 pub(crate) struct SecondEncoder {
     pub found: Vec<Finding>,
@@ -27,16 +27,16 @@ impl SecondEncoder {
     }
 }
 
-/// Looks for effects between the two encoders of a joint, in the position that the first one reports minus that of the
-/// second; `None` where no joint has two.
+/// Looks for effects between the two encoders of a joint, in the position that the first reports minus that of the
+/// second. `None` where no joint has two encoders.
 ///
 /// ```text
 /// reported - q = (q + load / elasticity + x) / transmission_ratio + encoder_offset - q + noise
 /// ```
 ///
-/// with `|x| <= backlash / 2` on the side of the load, and the load that the links of the robot `about` carry along the
-/// motion of the second encoders. Search, tests, sizes and intervals are those of the efforts. These four effects are
-/// counted from the `nominal` robot, whatever `about` has of them.
+/// with `|x| <= backlash / 2` on the side of the load. The load is what the links of the robot `about` carry along
+/// the motion of the second encoders. Search, tests, sizes and intervals are those for the efforts. These four
+/// effects count from the `nominal` robot, whatever `about` states of them.
 pub(crate) fn compare_encoders(
     about: &Robot,
     nominal: &Robot,

@@ -12,7 +12,7 @@ pub(crate) struct Spectrum {
 }
 
 impl Spectrum {
-    /// Of a residual, `[run][sample]`, at one rate: periodograms under a Hann window, without the mean.
+    /// Spectrum of a residual, `[run][sample]`, at one rate: periodograms with a Hann window, without the mean.
     pub fn of(left: &[Vec<f64>], rate_hz: f64) -> Self {
         let mut fourier = FourierTransform::default();
         let mut bins = Vec::new();
@@ -32,8 +32,8 @@ impl Spectrum {
         Self { bins, samples: left.iter().map(Vec::len).sum(), rate_hz }
     }
 
-    /// One-sided density ((N·m)²/Hz or N²/Hz) between neighbours of some rising frequencies (Hz),
-    /// zero where it has no bin.
+    /// One-sided density ((N·m)²/Hz or N²/Hz) between neighbours of some rising frequencies (Hz); zero between
+    /// neighbours without a bin.
     pub fn densities(&self, at_hz: &[f64]) -> Vec<f64> {
         let edge = |k: usize| match (k.checked_sub(1).and_then(|i| at_hz.get(i)), at_hz.get(k)) {
             (Some(low), Some(high)) => (low * high).sqrt(),

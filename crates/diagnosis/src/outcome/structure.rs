@@ -12,18 +12,18 @@ use crate::result::Dependence;
 /// Knots of the piecewise linear functions.
 const KNOTS: usize = 9;
 
-/// Prior standard deviations tried for a knot's value, in RMS of the residual.
+/// Prior standard deviations of a knot's value that are tried, in RMS of the residual.
 const SPREADS: [f64; 3] = [0.1, 0.4, 1.5];
 
 /// Number of signals named.
 const LISTED: usize = 3;
 
-/// Structure that a flexible predictor finds in a residual.
+/// Structure in a residual, found by a flexible predictor.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Structure {
-    /// Share of the residual's power that is predicted on held-out data; zero if none.
+    /// Share of the residual's power that the predictor explains on held-out data; zero if none.
     pub share: f64,
-    /// The signals it follows, the strongest first.
+    /// The signals that the residual follows, the strongest first.
     pub depends_on: Vec<Dependence>,
 }
 
@@ -57,15 +57,15 @@ impl Signal {
     }
 }
 
-/// The factor of the functions of a signal.
+/// What multiplies the functions of a signal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Factor {
     One,
-    /// Direction of the joint's motion.
+    /// The direction of the joint's motion.
     Direction,
 }
 
-/// Functions of one signal, and their columns among the features.
+/// The functions of one signal, and their columns among the features.
 #[derive(Debug, Clone)]
 struct Family {
     signal: Signal,
@@ -79,7 +79,7 @@ struct Family {
 /// r = sum_k (f_k(q_k) + v_k(qd_k)) + f_a(qdd) + f_load(tau) + sign(qd) (h_q(q) + h_load(tau))
 /// ```
 ///
-/// each on nine knots, ridge-regularised; judged on held-out parts only.
+/// each with nine knots and ridge regularisation, judged on held-out parts only.
 #[derive(Debug)]
 pub(crate) struct Probe<'a> {
     robot: &'a Robot,
@@ -93,7 +93,7 @@ pub(crate) struct Probe<'a> {
 }
 
 impl<'a> Probe<'a> {
-    /// The predictor for `joint`, held out as the folds say.
+    /// The predictor for `joint`, with parts held out as the folds say.
     pub fn new(
         robot: &'a Robot,
         design: &'a Design,
@@ -129,7 +129,7 @@ impl<'a> Probe<'a> {
         Self { robot, blocks, folds, families, is_informative, features }
     }
 
-    /// The structure in a residual, given `[run][sample]`, with the signals that predict at least `share` of it.
+    /// The structure in a residual, `[run][sample]`, with the signals that predict at least `share` of it.
     pub fn structure(&self, residual: &[Vec<f64>], share: f64) -> Structure {
         let part = |b: &Block| {
             let samples = residual[b.run][b.samples.clone()]
@@ -163,8 +163,8 @@ impl<'a> Probe<'a> {
         }
     }
 
-    /// Share of the residual's power that the features in `columns` predict when held out,
-    /// with the best of the spreads.
+    /// Share of the residual's power that the features in `columns` predict on held-out parts, with the best of the
+    /// spreads.
     fn predicted_share(&self, y: &[DVector<f64>], time: f64, columns: Range<usize>) -> f64 {
         let power: f64 = y.iter().map(DVector::norm_squared).sum();
         if power <= 0.0 {

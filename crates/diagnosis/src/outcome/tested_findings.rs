@@ -17,18 +17,19 @@ use crate::search::kept_nominal::KeptNominal;
 
 /// The findings of a search over all blocks, and their test on held-out runs.
 pub(crate) struct TestedFindings<'a> {
-    /// The same problem held out by run.
+    /// The same problem with runs held out.
     pub by_run: Problem<'a>,
     pub extended: Robot,
     pub found: Vec<FindingWithFall>,
     pub ruled_out: Vec<RuledOut>,
-    /// The smallest level of dry friction that would have been found at every joint (N·m or N).
+    /// The smallest level of dry friction at every joint that the logs would have shown (N·m or N).
     pub unseen_friction: Vec<f64>,
     /// Number of hypotheses that were looked for.
     pub hypotheses: usize,
     pub gain: HeldOutGain,
     pub kept_nominal: KeptNominal,
-    /// Held-out residuals of the models found without each run, and those of the nominal model, `[joint][run][sample]`.
+    /// Held-out residuals of the models found without each run, and residuals of the nominal model,
+    /// `[joint][run][sample]`.
     pub left: Vec<Vec<Vec<f64>>>,
     pub gap: Vec<Vec<Vec<f64>>>,
     /// Findings between motors and links, from second encoders.
@@ -69,7 +70,7 @@ impl Inputs<'_> {
         })
     }
 
-    /// The folds, each with the robot that was found without it.
+    /// The folds, each with the robot found without it.
     pub fn held_out_parts(&self, dataset: &Dataset, tested: &TestedFindings) -> Vec<HeldOutPart> {
         let spans = |of: &[usize]| spans(self.design, dataset.blocks, of);
         let part = |(fold, fitted): (&Fold, &FittedModel)| HeldOutPart {

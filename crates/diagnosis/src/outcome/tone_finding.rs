@@ -8,7 +8,7 @@ use crate::signals::tone::{Beat, Tone};
 /// Half width of a 95 per cent interval in standard errors.
 const HALF_WIDTH: f64 = 1.96;
 
-/// A tone as a finding. Its share is that of the residual of the other findings, over the whole band.
+/// A tone as a finding. Its share is of the residual of the other findings, over the whole band.
 pub(crate) fn tone_finding(robot: &Robot, tone: &Tone, common_phase: f64) -> Finding {
     let hypothesis = tone.hypothesis();
     let (beat, unit, what) = match tone.beat {

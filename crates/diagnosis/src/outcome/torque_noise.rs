@@ -43,7 +43,7 @@ struct Sources {
 }
 
 impl TorqueNoise {
-    /// The noise of the efforts of some logs, of which `design` is made.
+    /// The noise of the efforts of the logs from which `design` is made.
     pub fn new(
         robot: &Robot,
         design: &Design,
@@ -76,7 +76,7 @@ impl TorqueNoise {
         Self { joints, repeats }
     }
 
-    /// RMS of the noise of joint `j` in the band (N·m or N), and its source; zero where the logs have none.
+    /// RMS of the noise of joint `j` in the band (N·m or N), and its source; zero where no source is known.
     pub fn rms(&self, j: usize) -> (f64, NoiseFloorSource) {
         if let Some(rms) = self.repeats.as_ref().map(|rms| rms[j]) {
             return (rms, NoiseFloorSource::Repeats);

@@ -6,7 +6,7 @@ use crate::outcome::tested_findings::TestedFindings;
 use crate::search::inputs::Inputs;
 use crate::signals::along::{Along, minus};
 
-/// Signals behind a diagnosis, for figures: one run, on the regression's clock.
+/// Signals of one run for the figures of a diagnosis, at the sample times of the regression.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RunTraces {
     /// Name of the run.
@@ -32,7 +32,7 @@ pub struct JointTraces {
     pub extended: Vec<f64>,
 }
 
-/// The signals of every run, also those while joints stand, which take no part in a fit.
+/// The signals of every run. They include the samples in which joints stand, which no fit uses.
 ///
 /// ```text
 /// extended = effort of the robot that was found without the part + tones + clipped effort

@@ -7,11 +7,11 @@ use crate::regression::fit::Fit;
 use crate::regression::problem::HypothesisSet;
 use crate::search::select::Selection;
 
-/// Uncertainty that effects outside the model add to the sizes of the findings.
+/// Uncertainty of the sizes of the findings that comes from effects outside the model.
 ///
-/// Small errors are everywhere, and the findings take the torque of those that are none. `w_S` are the weights of a model,
-/// `w_K = B^-1 u` those of an effect outside of it, which change them by `-share w_K` (see [`Fit::beyond`]). The model
-/// averaged over one such effect at a time has
+/// Every arm has small errors, and the findings absorb the torque of the unnamed ones. `w_S` are the weights of a
+/// model. `w_K = B^-1 u` are those of an effect outside it, which change the weights of the model by `-share w_K`
+/// (see [`Fit::beyond`]). The model averaged over one such effect at a time has
 ///
 /// ```text
 /// covariance  C = sum over effects of p share (B^-1 + w_K w_K') share'
@@ -19,11 +19,12 @@ use crate::search::select::Selection;
 /// gain        (z² - k - k ln(z² / k)) / 2,  z² = u' B^-1 u > k weights, else 0
 /// ```
 ///
-/// beside its own. `gain` is the log evidence of the effect at its most likely size, since the size of a small error is
-/// unknown, and `least` the evidence that a finding needs (Hoeting et al. 1999).
+/// in addition to its own. `gain` is the log evidence of the effect at its most likely size, since the size of a
+/// small error is unknown. `least` is the evidence that a finding needs (Hoeting et al. 1999).
 ///
-/// The priors in `B` are those of the search. Links have those of CAD errors instead ([`effects::HasCadError::cad_error_sd`]): logs
-/// often show only the sum of the masses of two neighbours, and by the priors of the search either could have all of it.
+/// The priors in `B` are those of the search, except for links, which have the priors of CAD errors
+/// ([`effects::HasCadError::cad_error_sd`]). Logs often show only the sum of the masses of two neighbours, and the
+/// priors of the search would allow either link to have all of it.
 #[derive(Debug, Clone)]
 pub(crate) struct Unnamed<'a> {
     design: &'a Design,
@@ -55,7 +56,7 @@ impl<'a> Unnamed<'a> {
         Self { design, columns: fit.columns.clone(), covariance }
     }
 
-    /// The covariance of the columns of a fit about another robot; zero for columns that only that one has.
+    /// The covariance of the columns of a fit about another robot; zero for columns that only this fit has.
     pub fn about(&self, design: &Design, columns: &[usize]) -> DMatrix<f64> {
         let place: Vec<Option<usize>> =
             columns.iter().map(|&column| self.place(design, column)).collect();
@@ -77,7 +78,7 @@ impl<'a> Unnamed<'a> {
     }
 }
 
-/// Standard deviations of all weights, those of links from errors of CAD.
+/// Prior standard deviations of all weights; those of links are CAD errors.
 fn prior_of_small_errors(design: &Design, robot: &Robot, priors: &Priors) -> Vec<f64> {
     let mut prior = design.prior.clone();
     for group in &design.groups {

@@ -2,51 +2,52 @@ use crate::outcome::size::size;
 use crate::result::{NoiseFloorSource, Verdict};
 use crate::thresholds::verdict::VerdictThresholds;
 
-/// Whether dry friction that goes unseen may matter: then the logs say nothing of a joint, however small its residual.
+/// Whether dry friction too small to be seen may matter. Then the logs say nothing of a joint, however small its
+/// residual.
 pub(crate) fn hides_friction(unseen: f64, torque_rms: f64, t: &VerdictThresholds) -> bool {
     unseen > t.unseen * torque_rms
 }
 
-/// Everything that the verdict of one joint depends on.
+/// All inputs of the verdict of one joint.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Situation<'a> {
     /// Why the logs say nothing of the joint.
     pub inadequate: Option<String>,
-    /// Number of findings that lower its held-out error.
+    /// Number of findings that lower the held-out error of the joint.
     pub findings: usize,
-    /// Number of those that are causes of the joint alone.
+    /// Number of these findings that are causes of this joint alone.
     pub own: usize,
-    /// Number of findings between its two encoders.
+    /// Number of findings between the two encoders of the joint.
     pub between_encoders: usize,
     /// Whether the joint keeps its description because a fit predicts worse.
     pub keeps_nominal: bool,
-    /// The smallest level of dry friction that would have been found, where none was (N·m or N).
+    /// The smallest level of dry friction that the logs would have shown, where none was found (N·m or N).
     pub unseen: f64,
     /// RMS of the effort (N·m or N).
     pub torque_rms: f64,
     /// Held-out RMS error of the nominal and of the extended model.
     pub nominal_rms: f64,
     pub remaining_rms: f64,
-    /// Number of independent samples of noise that these are of.
+    /// Number of independent samples of noise behind these errors.
     pub samples: f64,
-    /// Noise of the effort, and where it comes from.
+    /// Noise of the effort, and its source.
     pub noise: (f64, NoiseFloorSource),
-    /// Whether the effort is what a controller asked for.
+    /// Whether the effort is a command.
     pub is_command: bool,
     /// RMS of the described dry friction near changes of direction, which no model can predict (N·m or N).
     pub near_rest: f64,
     /// Share of the effort below which a residual does not matter.
     pub practical: f64,
-    /// Share of the remaining residual's power that is predictable.
+    /// Share of the residual's power that is predictable.
     pub structure: f64,
-    /// Frequency above which most of the residual lies, and that of the motion (Hz).
+    /// Frequency above which most of the residual lies, and bandwidth of the motion (Hz).
     pub above_hz: Option<f64>,
     pub motion_hz: f64,
     pub thresholds: &'a VerdictThresholds,
 }
 
 impl Situation<'_> {
-    /// Share of the remaining residual's power that is beyond the noise.
+    /// Share of the residual's power that exceeds the noise.
     pub fn unexplained_share(&self) -> f64 {
         let noise = self.floor() / self.remaining_rms.max(f64::MIN_POSITIVE);
         (1.0 - noise.powi(2)).clamp(0.0, 1.0)
@@ -57,7 +58,7 @@ impl Situation<'_> {
         self.noise.0.hypot(self.near_rest)
     }
 
-    /// Whether the residual is at most so many times a floor, apart from the standard error of an RMS.
+    /// Whether the residual is at most `most` times a floor, plus some standard errors of an RMS.
     fn is_within(&self, most: f64, floor: f64) -> bool {
         let error = (2.0 * self.samples.max(1.0)).sqrt().recip();
         self.remaining_rms <= (most + self.thresholds.rms_errors * error) * floor
@@ -70,10 +71,11 @@ impl Situation<'_> {
         self.is_within(most, self.floor())
     }
 
-    /// Whether the residual may be noise, but is so large that an effect that matters may be part of it.
+    /// Whether the residual may be noise but is large enough to contain an effect that matters.
     ///
-    /// For a joint with a cause of its own this holds whatever the noise. Otherwise it holds only where the residual exceeds
-    /// the effort's own noise, so that it passes for noise because commands and changes of direction are given more room.
+    /// For a joint with a cause of its own this holds for any noise. For other joints the residual must also exceed
+    /// the effort's own noise: it then passes as noise only because commands and changes of direction are allowed
+    /// more.
     fn is_drowned(&self) -> bool {
         self.is_noise()
             && self.remaining_rms > self.thresholds.drowned * self.torque_rms
@@ -85,11 +87,11 @@ impl Situation<'_> {
         self.unexplained_share().sqrt() * self.remaining_rms <= self.practical * self.torque_rms
     }
 
-    /// The verdict and why.
+    /// The verdict and the reason for it.
     ///
-    /// A joint is closed where the residual is within the noise, or a share of the effort that does not matter, unless the
-    /// noise is so large that causes may hide in it. It is explained only where the error fell and is smaller than the
-    /// effort. A joint that keeps its description against a fit is never consistent.
+    /// A joint is closed where the residual is within the noise or within a share of the effort that does not matter,
+    /// unless the noise is large enough to hide causes. It is explained only where the error fell and is smaller than
+    /// the effort. A joint that keeps its description because a fit predicts worse is never consistent.
     pub fn verdict(&self) -> (Verdict, String) {
         if let Some(reason) = &self.inadequate {
             return (Verdict::DataInadequate, reason.clone());
@@ -192,8 +194,8 @@ impl Situation<'_> {
     }
 }
 
-/// The verdict over all joints of which the logs show enough; `hiding` joints move and may hide friction, which leaves the
-/// whole arm open.
+/// The verdict over all joints of which the logs show enough. `hiding` joints move but may hide friction, which
+/// leaves the whole arm open.
 pub(crate) fn overall(joints: &[Verdict], hiding: usize) -> Verdict {
     use Verdict::{Consistent, DataInadequate, Explained, PartlyExplained, Unexplained};
     let adequate: Vec<Verdict> = joints.iter().copied().filter(|v| *v != DataInadequate).collect();

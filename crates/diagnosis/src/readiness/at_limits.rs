@@ -3,8 +3,8 @@ use robot::Robot;
 
 use crate::thresholds::readiness::ReadinessThresholds;
 
-/// Warnings about joints whose effort is at the described limit for much of the logs: there an arm does not follow its
-/// motion, and often vibrates.
+/// Warnings about joints whose effort is at the described limit for much of the logs. There an arm does not follow
+/// its motion, and often vibrates.
 pub(crate) fn at_limits(
     robot: &Robot,
     prepared: &Prepared,

@@ -3,7 +3,7 @@ use robot::{Joint, Robot};
 
 use crate::thresholds::readiness::ReadinessThresholds;
 
-/// For every joint, the reason why the logs can say nothing of it, if there is one.
+/// For every joint, the reason why the logs say nothing of it, if there is one.
 pub(crate) fn inadequate(
     robot: &Robot,
     prepared: &Prepared,
@@ -23,8 +23,8 @@ pub(crate) fn inadequate(
     robot.links().iter().enumerate().map(reason).collect()
 }
 
-/// Leaves out runs in which the effort of a joint never changes while it moves, with a warning each, where
-/// these are less than half of the samples.
+/// Removes runs in which the effort of a joint is constant while it moves, with a warning for each run. All runs stay
+/// where these have half of the samples or more.
 pub(crate) fn drop_runs_without_effort(
     robot: &Robot,
     prepared: &mut Prepared,
@@ -60,7 +60,7 @@ pub(crate) fn drop_runs_without_effort(
     warnings
 }
 
-/// Whether the effort of joint `j` never changes in a run in which it moves over more than `least`.
+/// Whether the effort of joint `j` is constant in a run in which it moves over more than `least`.
 fn is_unrecorded(run: &PreparedRun, j: usize, least: f64) -> bool {
     let PreparedJoint { q, effort, .. } = &run.joints[j];
     let span = |(low, high): (f64, f64), q: &f64| (low.min(*q), high.max(*q));
@@ -69,7 +69,7 @@ fn is_unrecorded(run: &PreparedRun, j: usize, least: f64) -> bool {
     high - low > least && effort.iter().all(|e| (e - first).abs() <= f64::EPSILON * first.abs())
 }
 
-/// Range above which a joint moves (rad or m).
+/// Range of motion above which a joint counts as moved (rad or m).
 fn least(link: &robot::Link, t: &ReadinessThresholds) -> f64 {
     t.unmoved_range * full_range(&link.joint)
 }

@@ -4,12 +4,12 @@ use robot::Robot;
 
 use crate::thresholds::Thresholds;
 
-/// Logs after an inspection as a whole.
+/// The logs after an inspection as a whole.
 #[derive(Debug)]
 pub(crate) struct InspectedLogs {
-    /// The runs without spoilt seconds, where there are any.
+    /// The runs without spoilt seconds; `None` where nothing is spoilt.
     without: Option<Vec<Run>>,
-    /// Whole runs as they are read, where they were corrected.
+    /// The runs as they were read, where they were corrected.
     pub read: Option<Vec<Run>>,
     /// For every joint, the reason why its effort cannot be used, if there is one.
     pub spoilt: Vec<Option<String>>,
@@ -17,8 +17,8 @@ pub(crate) struct InspectedLogs {
     pub warnings: Vec<String>,
 }
 
-/// Inspects whole logs for a turned sign, another unit, a frozen encoder. Errors with one possible correction are corrected.
-/// No causes are sought in seconds or joints that the other errors spoil.
+/// Inspects whole logs for a turned sign, another unit, a frozen encoder. An error with only one possible correction
+/// is corrected. Seconds and joints that other errors spoil are left out of the search for causes.
 pub(crate) fn inspect_logs(robot: &Robot, runs: &[Run], t: &Thresholds) -> InspectedLogs {
     let CorrectedLogs { runs: read, mended, left: mut seen } =
         correct_with(robot, runs, &t.inspection);
@@ -42,14 +42,14 @@ pub(crate) fn inspect_logs(robot: &Robot, runs: &[Run], t: &Thresholds) -> Inspe
 }
 
 impl InspectedLogs {
-    /// The runs in which causes are sought; `given` are those of the inspection.
+    /// The runs in which causes are sought; `given` are the runs that were inspected.
     pub fn runs<'a>(&'a self, given: &'a [Run]) -> &'a [Run] {
         self.without.as_deref().or(self.read.as_deref()).unwrap_or(given)
     }
 }
 
-/// The runs without spoilt seconds, and without runs that are too short then unless all are; `None` where nothing is
-/// spoilt.
+/// The runs without spoilt seconds and without runs that are then too short. `None` where nothing is cut out, or where
+/// no run is left.
 fn without_spoilt_seconds(runs: &[Run], seen: &[Observation], fewest: usize) -> Option<Vec<Run>> {
     let spoilt = |run: usize| -> Vec<[f64; 2]> {
         let observations = seen.iter().filter(|o| o.spoils == Spoils::Stretches);

@@ -1,4 +1,5 @@
-//! What the logs can be used for: joints that move, corrected readings, second encoders that follow their motors.
+//! Which parts of the logs can be used: joints that move, corrected readings, second encoders that follow their
+//! motors.
 
 pub(crate) mod at_limits;
 pub(crate) mod extent;

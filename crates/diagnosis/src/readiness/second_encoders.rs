@@ -3,11 +3,11 @@ use robot::{Robot, SensingSide};
 
 use crate::thresholds::readiness::ReadinessThresholds;
 
-/// Motion of an encoder (rad² or m², summed over all samples) that its noise alone makes.
+/// Sum of squares of an encoder's motion (rad² or m², over all samples) that its noise alone may produce.
 const NOISE_OF_REST: f64 = 1e-6;
 
-/// Leaves out second encoders that do not follow their motor, or whose robot has its encoders at the links already, with a
-/// warning a joint.
+/// Leaves out second encoders that do not follow their motor, and those of a robot whose first encoders are at the
+/// links already. Warns once a joint.
 pub(crate) fn without_idle_encoders(
     robot: &Robot,
     prepared: &mut Prepared,
@@ -34,8 +34,7 @@ pub(crate) fn without_idle_encoders(
     warnings
 }
 
-/// Motion of the link per motion of its encoder at the motor, by least squares; one for a joint at
-/// rest.
+/// Motion of the link per motion of its motor encoder, by least squares; one for a joint at rest.
 fn slope<'a>(runs: impl Iterator<Item = &'a PreparedJoint>) -> f64 {
     let (mut across, mut own) = (0.0, 0.0);
     for joint in runs {

@@ -4,7 +4,7 @@ use std::ops::Range;
 use crate::columns::design::Design;
 use crate::thresholds::blocks::BlockThresholds;
 
-/// A stretch of one run: the unit of replication.
+/// A stretch of one run, the unit of replication.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Block {
     /// Index of the run.
@@ -13,20 +13,20 @@ pub(crate) struct Block {
     pub samples: Range<usize>,
 }
 
-/// A part of the logs that is held out together.
+/// A part of the logs that is held out as a whole.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Fold {
     /// Blocks to predict.
     pub test: Vec<usize>,
-    /// Blocks to fit on: all but the test blocks and their neighbours.
+    /// Blocks to fit on: all except the test blocks and their neighbours.
     pub train: Vec<usize>,
 }
 
 /// Cuts every run into blocks of at least five autocorrelation times.
 ///
-/// Blocks are so short that every joint has about 24 of them in which it moves, in motions that differ. A joint that moves
-/// in one log of six, or in three repeats of one motion, is thus cut as finely as in a single log. Where a joint moves too
-/// briefly for that, blocks are shortened until it has sixteen.
+/// Blocks are short enough for every joint to move in about 24 of them, in motions that differ. A joint that moves in
+/// one log of six, or in three repeats of one motion, is thus cut as finely as in a single log. Where a joint moves
+/// too briefly for that, blocks are shortened until it has sixteen.
 pub(crate) fn blocks(design: &Design, autocorrelation: f64, t: &BlockThresholds) -> Vec<Block> {
     let lengths: Vec<usize> = design.runs.iter().map(|r| r.time.len()).collect();
     let total = lengths.iter().sum::<usize>() as f64;
@@ -42,7 +42,7 @@ pub(crate) fn blocks(design: &Design, autocorrelation: f64, t: &BlockThresholds)
     lengths.iter().enumerate().flat_map(cut).filter(|b| !b.samples.is_empty()).collect()
 }
 
-/// The fewest informative samples of a joint that moved, in motions that differ.
+/// The number of informative samples, in motions that differ, of the moved joint that has the fewest.
 fn fewest_informative(design: &Design) -> Option<f64> {
     let is_first = |r: &usize| !design.motion[..*r].contains(&design.motion[*r]);
     let firsts: Vec<usize> = (0..design.runs.len()).filter(is_first).collect();
@@ -66,9 +66,9 @@ pub(crate) enum Folding {
 
 /// Folds over the blocks `of`.
 ///
-/// Runs, or motions, are held out in turn where every joint moves in three of them or more. Otherwise each run is cut into
-/// stretches, and the same stretches of every run are held out together, so that every motion of a joint is on both sides.
-/// The blocks next to a stretch take part on neither side.
+/// Runs, or motions, are held out in turn where every joint moves in at least three of them. Otherwise each run is
+/// cut into stretches, and the same stretches of every run are held out together, so that every motion of a joint is
+/// in both test and fit. The blocks beside a stretch belong to neither.
 pub(crate) fn folds(
     design: &Design,
     blocks: &[Block],
@@ -101,11 +101,11 @@ pub(crate) fn folds(
         .collect()
 }
 
-/// Folds of stretches, the same of every run.
+/// Folds of stretches that are the same in every run.
 ///
-/// The number of stretches is the smallest of 5, 10, 20, ... that leaves to every fit half of each joint's informative
-/// samples in either direction. Where none does, it is the number that keeps the least from the fits, summed over the
-/// joints: a joint that moves in one stretch alone then decides nothing for the others.
+/// The number of stretches is the smallest of 5, 10, 20, ... that leaves every fit half of each joint's informative
+/// samples in either direction. Where none does, it is the number that withholds the least from the fits, summed over
+/// the joints. A joint that moves in a single stretch then does not decide for the others.
 fn parts(design: &Design, blocks: &[Block], of: &[usize], t: &BlockThresholds) -> Vec<Fold> {
     let mut runs: Vec<usize> = of.iter().map(|&b| blocks[b].run).collect();
     runs.dedup();
@@ -134,7 +134,7 @@ fn parts(design: &Design, blocks: &[Block], of: &[usize], t: &BlockThresholds) -
     best.map(|(_, folds)| folds).unwrap_or_default()
 }
 
-/// Stretches of the runs `within`, `rounds` for each of `count` folds, dealt in turn.
+/// Deals stretches of the runs `within` to `count` folds in turn, `rounds` stretches to each fold.
 fn deal(within: &[Vec<usize>], count: usize, rounds: usize) -> Vec<Fold> {
     let fold = |p: usize| {
         let (mut test, mut train) = (Vec::new(), Vec::new());
@@ -154,7 +154,7 @@ fn deal(within: &[Vec<usize>], count: usize, rounds: usize) -> Vec<Fold> {
 struct InformativeSamples {
     /// `[joint and direction][block]`
     samples: Vec<Vec<usize>>,
-    /// The same of all blocks.
+    /// The same, summed over all blocks.
     all: Vec<usize>,
 }
 
@@ -183,7 +183,7 @@ impl InformativeSamples {
         Self { samples, all }
     }
 
-    /// The largest share of each joint's informative samples in each direction that a fold keeps from its fit.
+    /// The largest share of each joint's informative samples, in each direction, that a fold withholds from its fit.
     fn largest_held_out_shares(&self, folds: &[Fold]) -> Vec<f64> {
         let of = |(way, all): (&Vec<usize>, &usize)| {
             let share = |fold: &Fold| {

@@ -10,25 +10,24 @@ use crate::regression::gram::Information;
 /// A = H + diag(1 / prior^2),  A w = g
 /// ```
 ///
-/// Weights that leave their bounds are held there and the others fitted again, until all
-/// stay inside.
+/// Weights that leave their bounds are held there, and the others are fitted again until all stay inside.
 #[derive(Debug, Clone)]
 pub(crate) struct Fit {
-    /// The columns that are free, in increasing order.
+    /// The free columns, in increasing order.
     pub columns: Vec<usize>,
-    /// Their weights.
+    /// The weights of the free columns.
     pub weights: DVector<f64>,
     /// Columns held at a bound, with the bound.
     pub held: Vec<(usize, f64)>,
     factor: Cholesky<f64, Dyn>,
-    /// `g - H w` of the held columns: the right-hand side of the free ones.
+    /// `g - H w` of the held columns, the right-hand side for the free ones.
     answered: DVector<f64>,
-    /// Logarithm of the marginal likelihood, up to a constant of the data.
+    /// Logarithm of the marginal likelihood, up to a constant that depends on the data only.
     pub evidence: f64,
 }
 
 impl Fit {
-    /// The fit of `columns` to `info`; none when the normal equations are not positive definite.
+    /// The fit of `columns` to `info`; `None` when the normal equations are not positive definite.
     pub fn new(info: &Information, mut columns: Vec<usize>, prior: Prior) -> Option<Self> {
         let mut held: Vec<(usize, f64)> = Vec::new();
         let mut answered = info.g.clone();
@@ -52,7 +51,7 @@ impl Fit {
         }
     }
 
-    /// All weights, zero for columns that take no part.
+    /// All weights, zero for columns outside the fit.
     pub fn expand(&self, width: usize) -> Vec<f64> {
         let mut all = vec![0.0; width];
         self.columns.iter().zip(self.weights.iter()).for_each(|(&k, &w)| all[k] = w);
@@ -86,7 +85,7 @@ impl Fit {
         (complement, score)
     }
 
-    /// Gain in evidence from adding `others`, whose weights start at zero.
+    /// Gain in evidence from adding `others`, which start at zero weight.
     pub fn evidence_of(&self, info: &Information, others: &[usize], prior: &[f64]) -> f64 {
         let (complement, u) = self.beyond(info, others, prior);
         let Some(factor) = Cholesky::new(complement.b) else { return f64::NEG_INFINITY };
@@ -101,12 +100,12 @@ pub(crate) struct Complement {
     own: Vec<usize>,
     others: Vec<usize>,
     share: DMatrix<f64>,
-    /// Information of the others that the fit's own columns cannot take over.
+    /// Information on the others that the columns of the fit cannot explain.
     pub b: DMatrix<f64>,
 }
 
 impl Complement {
-    /// Covariance that one of the others gives the fit's own weights: `share covariance share'`.
+    /// Covariance of the fit's own weights that comes from one of the others: `share covariance share'`.
     pub fn propagate(&self, covariance: &DMatrix<f64>) -> DMatrix<f64> {
         &self.share * covariance * self.share.transpose()
     }

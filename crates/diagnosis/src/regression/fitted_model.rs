@@ -12,26 +12,26 @@ use crate::regression::physical_inertias::physical_inertias;
 use crate::regression::problem::{HypothesisSet, Problem};
 use crate::signals::log::Log;
 
-/// Most rounds of fitting anew about the extended robot.
+/// Most rounds of fitting again about the extended robot.
 const ROUNDS: usize = 8;
 
-/// Relative fall of the deviance below which a round has changed nothing.
+/// Relative fall of the deviance below which a round counts as converged.
 const CONVERGED: f64 = 1e-4;
 
 /// Shortest share of a step that is tried.
 const SHORTEST: f64 = 0.125;
 
-/// The fit about a robot that already has the findings, where columns are tangents only.
+/// A fit about the robot with the findings, for columns that are only tangents.
 #[derive(Debug, Clone)]
 pub(crate) struct Refit {
-    /// The robot that it is about.
+    /// The robot about which the columns are made.
     pub about: Robot,
     pub design: Design,
     pub grams: Grams,
     pub model: HypothesisSet,
-    /// Weights that are still to be changed.
+    /// Remaining changes of the weights.
     pub weights: Vec<f64>,
-    /// Weighted sum of squares that the robot leaves.
+    /// Weighted sum of squares of the robot's residual.
     left: f64,
     /// Deviance predicted by the linear model.
     expected: f64,
@@ -62,10 +62,10 @@ impl Refit {
 /// The robot with the findings of a model.
 #[derive(Debug, Clone)]
 pub(crate) struct FittedModel {
-    /// Weights of the model about the robot without them.
+    /// Weights of the model about the robot without findings.
     pub weights: Vec<f64>,
     pub robot: Robot,
-    /// None where the columns of every effect are linear.
+    /// `None` where the columns of every effect are linear.
     pub refit: Option<Refit>,
 }
 
@@ -90,12 +90,12 @@ impl FittedModel {
     }
 }
 
-/// Fits a model, and the robot that it makes.
+/// Fits a model, and the robot that results.
 ///
-/// Columns of some effects are tangents only: a gain scales the torque of the other findings, a tilt turns gravity on a
-/// circle, a spring twists the more the softer it is. These are fitted again about the robot with the findings, a
-/// Gauss-Newton iteration whose steps are halved where they lead to a larger deviance, and which ends where the deviance
-/// falls no more.
+/// Columns of some effects are only tangents: a gain scales the torque of the other findings, a tilt turns gravity
+/// along a circle, a softer spring twists more. These effects are fitted again about the robot with the findings, by
+/// Gauss-Newton. A step is halved while it raises the deviance, and the iteration ends when the deviance no longer
+/// falls.
 pub(crate) fn fit_model(
     robot: &Robot,
     log: &Log,

@@ -31,7 +31,7 @@ impl JointGram {
         self.count += other.count;
     }
 
-    /// Sum of squares left by the local weights `w`, each with its place: `yy - 2 w' xy + w' xx w`.
+    /// Sum of squares after the local weights `w`, each with its index: `yy - 2 w' xy + w' xx w`.
     pub fn remaining(&self, w: &[(usize, f64)]) -> f64 {
         let reduction = |&(i, wi): &(usize, f64)| {
             let column = self.xx.column(i);
@@ -56,7 +56,7 @@ pub(crate) struct Grams {
     width: usize,
 }
 
-/// The statistics of all joints together, each with its weight: the normal equations.
+/// The statistics of all joints, weighted and summed: the normal equations.
 #[derive(Debug, Clone)]
 pub(crate) struct Information {
     /// `sum_j c_j X_j' X_j`.
@@ -68,7 +68,7 @@ pub(crate) struct Information {
 }
 
 impl Information {
-    /// Weighted sum of squares that the weights `w` leave: `yy - 2 w' g + w' H w`.
+    /// Weighted sum of squares after the weights `w`: `yy - 2 w' g + w' H w`.
     pub fn deviance(&self, w: &[f64]) -> f64 {
         let w = DVector::from_column_slice(w);
         self.yy - 2.0 * w.dot(&self.g) + w.dot(&(&self.h * &w))
@@ -140,13 +140,13 @@ impl Grams {
         score
     }
 
-    /// The non-zero weights at joint `j`, with their places: few of its columns are in a model.
+    /// The non-zero weights at joint `j` with their indices. A model has few of the joint's columns.
     pub fn local(&self, j: usize, w: &[f64]) -> Vec<(usize, f64)> {
         let all = self.local[j].iter().map(|&k| w[k]).enumerate();
         all.filter(|(_, w)| w.abs() > 0.0).collect()
     }
 
-    /// Sum of squares and number of samples that `w` leaves at joint `j` over the blocks `of`.
+    /// Sum of squares after `w` and number of samples, at joint `j` over the blocks `of`.
     pub fn remaining(&self, j: usize, of: &[usize], w: &[f64]) -> (f64, usize) {
         let local = self.local(j, w);
         of.iter().fold((0.0, 0), |(sum, n), &b| {

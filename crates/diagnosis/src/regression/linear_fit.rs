@@ -5,7 +5,7 @@ use robot::Robot;
 use crate::regression::extend_robot::extend_robot;
 use crate::regression::problem::{HypothesisSet, Problem};
 
-/// A model as a linear fit: columns about one robot, and their weights. The robot may have the findings already.
+/// A model as a linear fit: columns about one robot, and their weights. This robot may include the findings already.
 #[derive(Debug, Clone)]
 pub(crate) struct LinearFit<'a> {
     pub problem: Cow<'a, Problem<'a>>,

@@ -1,5 +1,5 @@
-//! Weights of a model from normal equations by block: their evidence, their prediction of held-out blocks, physically
-//! possible sizes about the robot that has them, and the uncertainty of these.
+//! Weights of a model from normal equations by block: evidence, prediction of held-out blocks, physically possible
+//! sizes about the robot with the findings, and their uncertainty.
 
 pub(crate) mod blocks;
 pub(crate) mod extend_robot;

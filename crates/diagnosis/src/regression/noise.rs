@@ -1,4 +1,4 @@
-/// Variance and memory of the noise of each joint.
+/// Variance and autocorrelation time of the noise of each joint.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Noise {
     /// Variance of the residual ((N·m)² or N²).
@@ -27,8 +27,8 @@ impl Noise {
     /// c_j = 1 / (variance_j time_j)
     /// ```
     ///
-    /// so that `n` correlated samples count as `n / time` independent ones. Rows of a joint
-    /// that did not move, or has no residual at all, get none.
+    /// so that `n` correlated samples count as `n / time` independent ones. A joint that did not move, or whose
+    /// residual is zero, has weight zero.
     pub fn weights(&self, moved: &[bool]) -> Vec<f64> {
         let floor = self.variance.iter().fold(0.0, |m: f64, v| m.max(*v)) * 1e-12;
         let weight = |((v, t), moved): ((&f64, &f64), &bool)| {
@@ -44,7 +44,7 @@ impl Noise {
 /// time = 1 + 2 sum_{k=1}^{M} rho(k),  M the smallest lag with M >= 5 time
 /// ```
 ///
-/// The mean is not taken off: a residual that stays on one side carries little information.
+/// The mean is not subtracted: a residual that stays on one side carries little information.
 ///
 /// # Source
 ///

@@ -10,9 +10,8 @@ use crate::thresholds::sizes::SizeThresholds;
 
 /// Weights of a model with every inertia physical.
 ///
-/// Links of the model are profiled against all other columns, moved to the physically
-/// consistent inertias nearest in likelihood (see [`ConsistentFit`]), and the other
-/// columns are fitted again with the links held.
+/// The links of the model are profiled against all other columns, then moved to the physically consistent inertias
+/// nearest in likelihood (see [`ConsistentFit`]). The other columns are fitted again with the links held.
 pub(crate) fn physical_inertias(
     design: &Design,
     model: &HypothesisSet,
@@ -56,8 +55,7 @@ pub(crate) fn links(design: &Design, model: &HypothesisSet) -> Vec<(usize, Vec<u
     model.iter().filter_map(of).collect()
 }
 
-/// Changes of the links' parameters, in the order of `links`, that keep every inertia
-/// physical.
+/// Changes of the links' parameters, in the order of `links`, with which every inertia stays physical.
 fn consistent_change(
     others: &Fit,
     info: &Information,
@@ -108,8 +106,8 @@ fn consistent_change(
 /// l' = l / (1 + l sharpest^2),  change = P V diag(1 / (1 + l)) V' P score
 /// ```
 ///
-/// No direction is known better than a share `sharpest` of its prior, which keeps the problem well conditioned. Directions
-/// that the data do not show stay as they are.
+/// Each direction keeps a standard deviation of at least the share `sharpest` of its prior, which keeps the problem
+/// well conditioned. Directions that the data do not show stay unchanged.
 fn shrink_change(
     h: &DMatrix<f64>,
     score: &DVector<f64>,
@@ -134,7 +132,7 @@ fn shrink_change(
     (information, change.component_mul(prior))
 }
 
-/// The largest part of a change, in tenths, that keeps every inertia physical.
+/// The largest part of a change, in tenths, with which every inertia stays physical.
 fn largest_physical_part(nominal: &[f64], place: &[usize], change: &DVector<f64>) -> DVector<f64> {
     let part = |tenths: u32| change.map(|c| c * f64::from(tenths) / 10.0);
     let physical = |change: &DVector<f64>| {

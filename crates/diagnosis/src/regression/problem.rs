@@ -10,18 +10,18 @@ use crate::regression::noise::Noise;
 use crate::signals::response::Response;
 use crate::thresholds::Thresholds;
 
-/// A set of hypotheses, by index of their groups.
+/// A set of hypotheses, by the indices of their groups.
 pub(crate) type HypothesisSet = BTreeSet<usize>;
 
-/// The regression problem on a part of the logs: selection, tests and fits work on it.
+/// The regression problem on a part of the logs, used by selection, tests and fits.
 #[derive(Debug, Clone)]
 pub(crate) struct Problem<'a> {
     pub design: &'a Design,
     pub blocks: &'a [Block],
     pub grams: &'a Grams,
-    /// The blocks that take part.
+    /// The blocks of this part.
     pub of: Vec<usize>,
-    /// How they are held out in turn.
+    /// The folds that are held out in turn.
     pub folds: Vec<Fold>,
     /// Weight of each joint's squared residuals.
     pub weight: Vec<f64>,
@@ -44,7 +44,7 @@ pub(crate) struct HeldOutResiduals {
 }
 
 impl<'a> Problem<'a> {
-    /// The problem on the blocks `of`, with joints weighted as `weight` says.
+    /// The problem on the blocks `of`, with the joints weighted by `weight`.
     pub fn new(
         design: &'a Design,
         blocks: &'a [Block],
@@ -66,7 +66,7 @@ impl<'a> Problem<'a> {
         Self::new(self.design, self.blocks, self.grams, &self.of, weight, self.thresholds)
     }
 
-    /// The same problem held out in another way.
+    /// The same problem with other folds.
     pub fn with_folding(&self, folding: Folding) -> Self {
         let t = &self.thresholds.blocks;
         let folds = folds(self.design, self.blocks, &self.of, folding, t);
@@ -76,8 +76,8 @@ impl<'a> Problem<'a> {
         Self { folds, training, tests, ..self.clone() }
     }
 
-    /// The blocks in groups that are independent of each other. Where runs repeat a motion their residuals repeat too, so
-    /// that the same stretch of each belongs to one group.
+    /// The blocks in independent groups. Where runs repeat a motion, their residuals repeat too, so that the same
+    /// stretch of each run belongs to one group.
     pub fn independent(&self) -> Vec<Vec<usize>> {
         let mut groups: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
         for &b in &self.of {
@@ -118,7 +118,7 @@ impl<'a> Problem<'a> {
         fit.map_or_else(|| vec![0.0; self.design.width], |f| f.expand(self.design.width))
     }
 
-    /// Squared residuals of a model on the blocks that its weights have not seen.
+    /// Squared residuals of a model on held-out blocks.
     pub fn hold_out(&self, model: &HypothesisSet) -> HeldOutResiduals {
         let joints = self.design.joints();
         let (mut squares, mut counts) = (vec![0.0; joints], vec![0_usize; joints]);
@@ -134,7 +134,7 @@ impl<'a> Problem<'a> {
         HeldOutResiduals { mean_square: squares.iter().zip(&counts).map(mean).collect(), deviance }
     }
 
-    /// The weighted sum of squares of every block, where it is held out.
+    /// The weighted sum of squares of every block, from the fold that holds it out.
     pub fn hold_out_by_block(&self, model: &HypothesisSet) -> Vec<f64> {
         let mut deviance = vec![0.0; self.blocks.len()];
         for (f, fold) in self.folds.iter().enumerate() {
@@ -148,8 +148,8 @@ impl<'a> Problem<'a> {
         deviance
     }
 
-    /// A signal of run `run`, given for every fold: each block is taken from the fold that holds it out, a block of no
-    /// fold from the first.
+    /// A signal of run `run`, given once for every fold. Each block is taken from the fold that holds it out, or from
+    /// the first fold if none does.
     pub fn join_folds(&self, run: usize, folds: &[&[f64]]) -> Vec<f64> {
         let of_run = self.blocks.iter().enumerate().filter(|(_, block)| block.run == run);
         let part = |(b, block): (usize, &Block)| {
@@ -159,8 +159,8 @@ impl<'a> Problem<'a> {
         of_run.flat_map(part).collect()
     }
 
-    /// Held-out residuals, `[joint][run][sample]`. `left` gives the residual of a fold, by its index, in a run at a joint;
-    /// runs that take no part are left out.
+    /// Held-out residuals, `[joint][run][sample]`. `left` gives the residual of a fold, by its index, in a run at a
+    /// joint. Runs outside this part of the logs are left out.
     pub fn held_out_residuals(
         &self,
         left: impl Fn(usize, usize, usize) -> Vec<f64>,
@@ -223,7 +223,8 @@ impl<'a> Problem<'a> {
         Noise::of(&self.informative_residuals(|_, run, j| self.design.remaining(run, j, &weights)))
     }
 
-    /// The model of every hypothesis at once. Of efforts it leaves out effects that an error elsewhere may pass for.
+    /// The model with every hypothesis at once. In a design of the efforts it leaves out effects that an error
+    /// elsewhere may imitate.
     pub fn everything(&self) -> HypothesisSet {
         let groups = &self.design.groups;
         let is_distinct = |g: &usize| {

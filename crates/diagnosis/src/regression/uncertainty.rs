@@ -10,7 +10,7 @@ use crate::regression::problem::{HypothesisSet, Problem};
 use crate::result::Estimate;
 use crate::thresholds::sizes::SizeThresholds;
 
-/// Share of the largest eigenvalue of a correlation below which an eigenvalue is rounding.
+/// Share of the largest eigenvalue of a correlation matrix below which an eigenvalue counts as rounding.
 const ROUNDING: f64 = 1e-10;
 
 /// The uncertainty of a model's weights.
@@ -22,13 +22,13 @@ const ROUNDING: f64 = 1e-10;
 /// blocks      A^-1 (sum_b s_b s_b') A^-1 B / (B - 1),  s_b the score of block b
 /// ```
 ///
-/// Both are of the noise. The changes that unnamed effects may make are added where they are known.
+/// Both are of the noise. The uncertainty from unnamed effects is added where it is known.
 #[derive(Debug, Clone)]
 pub(crate) struct Uncertainty {
     columns: Vec<usize>,
     likelihood: DMatrix<f64>,
     blocks: DMatrix<f64>,
-    /// Covariance from effects without a name.
+    /// Covariance from unnamed effects.
     unnamed: DMatrix<f64>,
     thresholds: SizeThresholds,
     /// Half width of a 95 per cent interval in standard deviations.
@@ -42,13 +42,13 @@ impl Uncertainty {
         Some(Self::new(&fitted.problem, &fit, fitted.weights))
     }
 
-    /// The same with the covariance that effects without a name add to its columns.
+    /// The same, with the covariance from unnamed effects added to its columns.
     pub fn with_unnamed_effects(mut self, of: impl FnOnce(&[usize]) -> DMatrix<f64>) -> Self {
         self.unnamed = of(&self.columns);
         self
     }
 
-    /// The uncertainty of `fit`, whose weights are used as they stand in `weights`.
+    /// The uncertainty of `fit`, whose weights have the final values `weights`.
     fn new(problem: &Problem, fit: &Fit, weights: &[f64]) -> Self {
         // Weights held at a bound are uncertain too, on the side that is possible.
         let held = fit.held.iter().map(|(k, _)| *k);
@@ -71,8 +71,8 @@ impl Uncertainty {
         Self { columns, likelihood, blocks, unnamed, thresholds, t }
     }
 
-    /// The parameters of `hypothesis` as the user reads them, with intervals, where it and its `parts` are fitted about a
-    /// robot.
+    /// The parameters of `hypothesis` with intervals, as the user reads them, where the hypothesis and its `parts`
+    /// are fitted about a robot.
     pub fn estimates(
         &self,
         fitted: &LinearFit,
@@ -125,8 +125,8 @@ impl Uncertainty {
         here.iter().enumerate().map(estimate).collect()
     }
 
-    /// Half the 95 per cent interval of `gradient' w` over the columns at `place`, with a share of the covariance from
-    /// effects without a name.
+    /// Half the 95 per cent interval of `gradient' w` over the columns at `place`, with a share of the covariance
+    /// from unnamed effects.
     fn half(&self, place: &[usize], gradient: &DVector<f64>, share: f64) -> f64 {
         let variance = |all: &DMatrix<f64>| {
             let part = DMatrix::from_fn(place.len(), place.len(), |i, k| all[(place[i], place[k])]);
@@ -136,7 +136,7 @@ impl Uncertainty {
         self.t * (noise + share * variance(&self.unnamed)).max(0.0).sqrt()
     }
 
-    /// Whether a change of the weights of some columns is within their 95 per cent region:
+    /// Whether a change of the weights of some columns is inside their 95 per cent region, and so may be zero:
     ///
     /// ```text
     /// change' C^-1 change / max(1, trace(C^-1 C_blocks) / k) < chi^2_k(0.95)
@@ -162,8 +162,8 @@ impl Uncertainty {
         scaled.dot(&(&inverse * &scaled)) / wider < law.inverse_cdf(self.thresholds.region)
     }
 
-    /// Number of directions of a group's weights whose standard deviation is more than half that of the prior, and number
-    /// of all directions.
+    /// Number of directions of a group's weights whose standard deviation is more than half that of the prior, and
+    /// the number of all its directions.
     pub fn undetermined_directions(
         &self,
         problem: &Problem,
@@ -187,9 +187,9 @@ impl Uncertainty {
     }
 }
 
-/// A hypothesis whose size the logs do not determine, if there is one:
+/// A hypothesis whose size the logs do not determine, if there is one. Any of these holds for it:
 ///
-/// - together with all others it is not possible physically,
+/// - its size, together with all others, is physically impossible,
 /// - it has one weight, and the 95 per cent interval of every parameter contains the described value,
 /// - it is a body, and the 95 per cent region of its ten parameters contains the described ones,
 /// - it is an asymmetry or an excess near rest, and its interval contains zero.
@@ -230,7 +230,7 @@ fn is_unchanged_body(
     uncertainty.may_be_none(&design.groups[group].columns, &change)
 }
 
-/// Whether the weight that distinguishes an effect from a simpler one of the same place may be zero.
+/// Whether the weight that distinguishes an effect from a simpler one at the same place may be zero.
 fn is_no_more_than_plain(
     uncertainty: &Uncertainty,
     fitted: &LinearFit,
@@ -271,8 +271,8 @@ fn slope(
     (0..here.len()).map(slope).collect()
 }
 
-/// An interval kept within what is physically possible, where its quantity follows one
-/// bounded weight; `value` is the quantity at `weights`.
+/// An interval clipped to what is physically possible, where its quantity follows one bounded weight. `value` is the
+/// quantity at `weights`.
 fn clip_interval(
     [low, high]: [f64; 2],
     (own, gradient): (&[usize], &DVector<f64>),
@@ -288,8 +288,8 @@ fn clip_interval(
     [low.max(a.min(b)).min(value), high.min(a.max(b)).max(value)]
 }
 
-/// Interval of the reciprocal of a non-negative number that is known to `half`, such as of a stiffness where the weights
-/// change the compliance.
+/// Interval of the reciprocal of a non-negative number that is known to within `half`, such as a stiffness whose
+/// weight is a compliance.
 fn reciprocal_interval(number: f64, half: f64) -> [f64; 2] {
     [(number + half).recip(), (number - half).max(0.0).recip()]
 }

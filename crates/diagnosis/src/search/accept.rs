@@ -13,13 +13,13 @@ use crate::search::search_result::SearchResult;
 use crate::search::select::Selection;
 use crate::search::twins::{Separated, TwinDecision, Twins};
 
-/// Most rounds in which a finding is exchanged for a twin that does better.
+/// Most rounds in which a finding is exchanged for a better twin.
 const EXCHANGES: usize = 4;
 
-/// Effects that are no findings because their sizes would have to vary.
+/// Effects that are excluded because their sizes would have to vary.
 pub(crate) type Inconstant = BTreeMap<usize, Variation>;
 
-/// A model of sizes that are determined and constant, and the robot with it.
+/// A model whose sizes are determined and constant, and the robot with it.
 #[derive(Debug)]
 pub(crate) struct Accepted {
     pub model: HypothesisSet,
@@ -28,7 +28,8 @@ pub(crate) struct Accepted {
 }
 
 impl Inputs<'_> {
-    /// Accepts effects, and exchanges findings for their twins until no twin does better; also the twins that do worse.
+    /// Accepts effects, and exchanges findings for their twins until no twin does better. Also returns the twins that
+    /// do worse.
     pub fn accept_best_twins(
         &self,
         dataset: &Dataset,
@@ -55,8 +56,8 @@ impl Inputs<'_> {
         }
     }
 
-    /// Removes effects whose size the data do not determine or that would have to vary; each removed effect is replaced
-    /// by a simpler special case where that qualifies.
+    /// Removes effects whose size the data do not determine or that would have to vary. Each removed effect is
+    /// replaced by a simpler special case where one qualifies.
     fn accept(
         &self,
         selection: &Selection,
@@ -88,7 +89,7 @@ impl Inputs<'_> {
         }
     }
 
-    /// The effects of a model whose sizes would have to vary, in a fit with those that are `inconstant` already.
+    /// The effects of a model whose sizes would have to vary, in a fit that includes the `inconstant` effects.
     fn find_inconstant(
         &self,
         problem: &Problem,
@@ -104,7 +105,7 @@ impl Inputs<'_> {
         Ok(self.variations(problem, model, &all, &fitted))
     }
 
-    /// How the sizes of the effects of a model vary in the fit of a model with `all` effects.
+    /// How the sizes of a model's effects vary in the fit of a model with the effects `all`.
     fn variations(
         &self,
         problem: &Problem,

@@ -10,21 +10,22 @@ use crate::regression::problem::Problem;
 /// Signals that a size may vary with: position, velocity and acceleration of the joint, and its load.
 const SIGNALS: [&str; 4] = ["position", "velocity", "acceleration", "load"];
 
-/// Functions of one signal.
+/// Number of functions of one signal.
 const FUNCTIONS: usize = 2;
 
-/// How the size of an effect would have to vary for the logs.
+/// How the size of an effect would have to vary to reproduce the logs.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Variation {
     /// RMS variation as a share of the size.
     pub rms: f64,
-    /// The signal that it varies with; `None` where it differs from joint to joint.
+    /// The signal that the size varies with; `None` where it differs from joint to joint.
     pub with: Option<&'static str>,
-    /// The joint.
+    /// Index of the joint.
     pub joint: usize,
 }
 
-/// Columns that are fitted beside a model: the torque `c` of one effect at one joint, times functions of a signal there.
+/// Columns fitted in addition to a model: the torque `c` of one effect at one joint, times functions of a signal
+/// there.
 #[derive(Debug)]
 struct Contrast {
     joint: usize,
@@ -41,9 +42,9 @@ struct Equations {
     yy: f64,
 }
 
-/// The variation that the size of an effect needs to reproduce the logs; `None` where its size may be constant, as that of
-/// a cause is. `size` are the weights of the effect about the robot without it; further weights about a robot with it are
-/// of its shape.
+/// The variation that the size of an effect needs to reproduce the logs. `None` where a constant size may do, as it
+/// does for a cause. `size` are the weights of the effect about the robot without it. About a robot with it, further
+/// weights are those of its shape.
 ///
 /// With `c` the torque of the effect, `b_k` functions of one signal z, and `X` the columns of the whole
 /// model,
@@ -53,10 +54,10 @@ struct Equations {
 /// share = (D(X) - D(X, b c)) / D(c | X without the effect)
 /// ```
 ///
-/// with `z` of zero mean and variance one. Above the line stands the fall of `D` on held-out blocks, below it the part of
-/// `c` that the other columns cannot explain. A size varies where the root of the share exceeds
-/// [`variation`](crate::SearchThresholds::variation), or that of rough laws, for some signal. An effect that stands in for
-/// a cause of another kind explains a part of its torque, and leaves a part that depends on the motion.
+/// with `z` of zero mean and variance one. The numerator is the fall of `D` on held-out blocks, the denominator the
+/// part of `c` that the other columns cannot explain. A size varies where the root of the share exceeds
+/// [`variation`](crate::SearchThresholds::variation), or that of rough laws, for some signal. An effect that imitates
+/// a cause of another kind explains only part of its torque, and the rest depends on the motion.
 pub(crate) fn size_variation(fitted: &LinearFit, group: usize, size: &[f64]) -> Option<Variation> {
     let (problem, model) = (&*fitted.problem, fitted.model);
     let t = &problem.thresholds.search;
@@ -157,7 +158,7 @@ fn spread(design: &Design, index: usize, joint: usize) -> (f64, f64) {
     (mean, variance.sqrt().max(f64::MIN_POSITIVE))
 }
 
-/// Weighted sum of squares that a model, with a contrast, leaves of blocks that it was not fitted to.
+/// Weighted sum of squares of a model with a contrast, on blocks outside its fit.
 fn held_out_square(
     problem: &Problem,
     columns: &[usize],
@@ -178,8 +179,8 @@ fn held_out_square(
     Some(left)
 }
 
-/// Normal equations of the columns of a model over the blocks `of`, whose own are `info`, bordered by
-/// those of a contrast.
+/// Normal equations of the columns of a model over the blocks `of`, which `info` holds, bordered by those of a
+/// contrast.
 fn equations(
     problem: &Problem,
     (info, of): (&Information, &[usize]),

@@ -8,10 +8,10 @@ use crate::regression::problem::{HypothesisSet, Problem};
 use crate::search::select::Selection;
 use crate::thresholds::Thresholds;
 
-/// Most rounds of selecting a model and measuring the noise that it leaves.
+/// Most rounds of selecting a model and measuring its residual noise.
 const ROUNDS: usize = 4;
 
-/// The logs cut into blocks: what every search on them shares.
+/// The logs cut into blocks, shared by all searches on them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Dataset<'a> {
     pub robot: &'a Robot,
@@ -24,10 +24,11 @@ pub(crate) struct Dataset<'a> {
 }
 
 impl<'a> Dataset<'a> {
-    /// The problem on the blocks `of`, weighted by the noise that all hypotheses together leave on the blocks they are
-    /// fitted to.
+    /// The problem on the blocks `of`, weighted by the residual noise of all hypotheses together on the blocks they
+    /// are fitted to.
     ///
-    /// That noise is too small. A search measures it anew and corrects it; noise that is too large would hide causes.
+    /// This noise is too small. A search measures it again and corrects it, whereas noise that is too large would
+    /// hide causes.
     pub fn problem(&self, of: &[usize]) -> Problem<'a> {
         let power = |j: usize| {
             let all = self.grams.joint(j, of);
@@ -41,7 +42,7 @@ impl<'a> Dataset<'a> {
         rough.with_weights(noise.weights(&self.design.moved))
     }
 
-    /// Median over joints of the autocorrelation time of the residual of a model of everything (samples).
+    /// Median over joints of the autocorrelation time of the residual with all hypotheses in the model (samples).
     pub fn memory(&self) -> f64 {
         let all: Vec<usize> = (0..self.blocks.len()).collect();
         let problem = self.problem(&all);
@@ -52,7 +53,7 @@ impl<'a> Dataset<'a> {
         times.get(times.len() / 2).copied().unwrap_or(1.0)
     }
 
-    /// The hypotheses that the blocks `of` support, and the problem weighted by the noise that they leave.
+    /// The hypotheses that the blocks `of` support, and the problem weighted by their residual noise.
     pub fn select_model(&self, of: &[usize]) -> (Problem<'a>, HypothesisSet) {
         let (mut problem, mut model) = (self.problem(of), HypothesisSet::new());
         for _ in 0..ROUNDS {

@@ -15,17 +15,17 @@ use crate::settings::Settings;
 use crate::signals::log::Log;
 use crate::thresholds::Thresholds;
 
-/// The inputs of a diagnosis, once the logs are prepared.
+/// The inputs of a diagnosis, after the logs are prepared.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Inputs<'a> {
     /// The robot as it was described.
     pub nominal: &'a Robot,
-    /// The same with the best trial shapes of effects, which the design is about.
+    /// The same robot with the best trial shapes of effects; the design is about this one.
     pub robot: &'a Robot,
     pub settings: &'a Settings,
     pub log: Log<'a>,
     pub design: &'a Design,
-    /// Why the logs say nothing of a joint.
+    /// For every joint, the reason why the logs say nothing of it, if there is one.
     pub inadequate: &'a [Option<String>],
 }
 
@@ -52,7 +52,7 @@ impl Inputs<'_> {
         Dataset { robot, design, blocks, grams, practical, thresholds }
     }
 
-    /// Blocks of at least five autocorrelation times of the residual of a model of everything.
+    /// Blocks of at least five autocorrelation times of the residual with all hypotheses in the model.
     fn blocks(&self) -> Result<Vec<Block>, DiagnosisError> {
         let thresholds = &self.thresholds().blocks;
         let rough = blocks(self.design, 1.0, thresholds);
@@ -77,7 +77,7 @@ impl Inputs<'_> {
         (0..self.design.joints()).map(|j| self.settings.practical_share * rms(j)).collect()
     }
 
-    /// A robot without the trial shapes of effects that it does not have, and with the tones and limits of the logs.
+    /// A robot without the trial shapes of effects that it lacks, and with the tones and limits of the logs.
     pub fn without_trial_shapes(&self, robot: Robot) -> Robot {
         let mut finished = without_unused_shapes(robot, self.nominal);
         let common_phase = self.thresholds().tones.common_phase;

@@ -4,23 +4,23 @@ use crate::columns::design::Design;
 use crate::regression::problem::{HypothesisSet, Problem};
 use crate::result::InverseGain;
 
-/// Joints that keep their description, because a fit predicts their held-out efforts worse than it.
+/// Joints that keep their description because a fit predicts their held-out efforts worse.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct KeptNominal {
-    /// Their indices.
+    /// Indices of the joints.
     pub joints: BTreeSet<usize>,
-    /// Causes of the search over all blocks that are removed for it.
+    /// Causes of the search over all blocks that are removed for this reason.
     pub dropped: HypothesisSet,
 }
 
 impl KeptNominal {
-    /// Whether hypothesis `g` acts on such joints alone.
+    /// Whether hypothesis `g` acts on these joints alone.
     pub fn drops(&self, design: &Design, g: usize) -> bool {
         let keep_theirs = |j: &usize| self.joints.contains(j);
         design.groups[g].joints.iter().all(keep_theirs)
     }
 
-    /// A model without the hypotheses that act on such joints alone.
+    /// A model without the hypotheses that act on these joints alone.
     pub fn remaining(&self, problem: &Problem, model: &HypothesisSet) -> HypothesisSet {
         model.iter().copied().filter(|g| !self.drops(problem.design, *g)).collect()
     }
@@ -30,7 +30,7 @@ impl KeptNominal {
         self.dropped.iter().any(|g| design.groups[*g].joints.contains(&j))
     }
 
-    /// The same with every other joint that a fit predicts worse than the description, where there is one.
+    /// The same with all other joints added that a fit predicts worse than the description; `None` if there are none.
     pub fn with_worse_joints(&self, gain: &InverseGain) -> Option<Self> {
         let more = joints_predicted_worse(gain).filter(|j| !self.joints.contains(j));
         let mut all = self.clone();

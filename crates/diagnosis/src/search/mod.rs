@@ -1,5 +1,4 @@
-//! Which hypotheses the logs support: by evidence and by held-out prediction, with one size that holds for all of the
-//! logs.
+//! Which hypotheses the logs support: by evidence and held-out prediction, with one size that holds for all logs.
 
 pub(crate) mod accept;
 pub(crate) mod causes;

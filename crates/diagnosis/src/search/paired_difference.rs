@@ -1,7 +1,7 @@
 /// Difference of the errors of two models over `n` independent parts of the data.
 ///
-/// With `d_b` the weighted sum of squares that the second model leaves of part `b` beyond the first one,
-/// `total = sum(d)` and `error = sd(d) sqrt(n)`. The second model does worse where `mean(d) > errors sd(d) / sqrt(n)`.
+/// `d_b` is the weighted sum of squares of the second model on part `b` minus that of the first, `total = sum(d)` and
+/// `error = sd(d) sqrt(n)`. The second model does worse where `mean(d) > errors sd(d) / sqrt(n)`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PairedDifference {
     pub total: f64,
@@ -9,7 +9,7 @@ pub(crate) struct PairedDifference {
 }
 
 impl PairedDifference {
-    /// From the sums of squares that the first and the second model leave of each part.
+    /// From the sums of squares of the first and the second model on each part.
     pub fn new(parts: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let change: Vec<f64> = parts.into_iter().map(|(own, other)| other - own).collect();
         let n = change.len() as f64;

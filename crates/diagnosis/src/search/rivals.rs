@@ -15,8 +15,8 @@ pub(crate) fn rivals(selection: &Selection, model: &HypothesisSet, group: usize)
     contenders.filter(|(_, rival)| is_as_good(rival)).map(|(h, _)| h).collect()
 }
 
-/// Hypotheses that explain at least half of the held-out gain of `group` in its place, whether as well or not, each with
-/// the model that has it; of those that `is_asked_for`.
+/// Hypotheses that explain at least half of the held-out gain of `group` in its place, better or worse, each with the
+/// model that has it. Only hypotheses for which `is_asked_for` holds are tried.
 pub(crate) fn contenders(
     selection: &Selection,
     model: &HypothesisSet,
@@ -46,8 +46,8 @@ pub(crate) fn contenders(
     candidates.into_iter().filter_map(recovers).collect()
 }
 
-/// Whether a hypothesis makes the logs nearly as likely as `group` does. This finds rivals that the catalogue does not
-/// list: about one posture a gap that never opens is a turned encoder.
+/// Whether a hypothesis makes the logs nearly as likely as `group` does. This finds rivals beyond those of the
+/// catalogue: about one posture, a gap that never opens is equivalent to an encoder offset.
 fn is_nearly_as_likely(
     problem: &Problem,
     without: &HypothesisSet,
@@ -62,8 +62,8 @@ fn is_nearly_as_likely(
     move |h| evidence(h) > least
 }
 
-/// The model with `rival` in the place of `group`. Only the asymmetry of asymmetric friction is disputed: its symmetric part
-/// stays.
+/// The model with `rival` in the place of `group`. For asymmetric friction only the asymmetry is replaced; its
+/// symmetric part stays.
 pub(crate) fn with_rival(
     problem: &Problem,
     without: &HypothesisSet,
@@ -78,11 +78,11 @@ pub(crate) fn with_rival(
     model
 }
 
-/// Whether `group` is `other` with some of its weights zero, as Coulomb friction is symmetric asymmetric friction. Then
-/// `other` does as well and is no rival.
+/// Whether `group` is `other` with some of its weights zero, as Coulomb friction is asymmetric friction without
+/// asymmetry. Then `other` explains as much without being a rival.
 ///
-/// Only weights that the logs show count: of the inertia of a link that turns about the vertical they show one number,
-/// which a rotor has as well.
+/// Only weights that the logs show count. The inertia of a link that turns about the vertical has one such weight,
+/// and so has a rotor.
 fn is_special_case(problem: &Problem, group: usize, other: usize) -> bool {
     let columns = |g: usize| -> Vec<usize> {
         let all = problem.design.groups[g].columns.iter().copied();

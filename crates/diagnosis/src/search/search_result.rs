@@ -7,7 +7,7 @@ use crate::regression::problem::{HypothesisSet, Problem};
 use crate::search::dataset::Dataset;
 use crate::search::inputs::Inputs;
 
-/// The model that a search selects, before any test of it.
+/// The model that a search selects, before any test.
 pub(crate) struct SearchResult<'a> {
     pub problem: Problem<'a>,
     pub model: HypothesisSet,
@@ -15,7 +15,7 @@ pub(crate) struct SearchResult<'a> {
 }
 
 impl Inputs<'_> {
-    /// The robot with the model that a search over all blocks selects.
+    /// The robot with the model of a search over all blocks.
     pub fn extended_robot(&self) -> Result<Robot, DiagnosisError> {
         self.with_dataset(|dataset| {
             let all: Vec<usize> = (0..dataset.blocks.len()).collect();

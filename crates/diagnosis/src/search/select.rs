@@ -14,9 +14,9 @@ const ROUNDS: usize = 4;
 
 /// Selects the hypotheses that the blocks of a problem support.
 ///
-/// Hypotheses are added in the order of their evidence, alone or in pairs, where they are physically possible and lower
-/// the error of held-out blocks. Then findings are exchanged for hypotheses outside the model, then the least supported
-/// ones are removed, until nothing changes.
+/// Hypotheses are added in the order of their evidence, alone or in pairs, where they are physically possible and
+/// lower the error of held-out blocks. Then findings are exchanged for hypotheses outside the model, and the least
+/// supported ones are removed. These steps repeat until nothing changes.
 #[derive(Debug)]
 pub(crate) struct Selection<'a> {
     pub problem: &'a Problem<'a>,
@@ -47,8 +47,8 @@ impl Selection<'_> {
         model
     }
 
-    /// Replaces two findings by one that is the same torque: Coulomb friction with a torque offset of the same joint, of at
-    /// most half its level, by asymmetric friction.
+    /// Replaces two findings by one with the same torque: Coulomb friction and a torque offset of the same joint, of
+    /// at most half its level, by asymmetric friction.
     fn merge_pairs(&self, model: &mut HypothesisSet) {
         for one in 0..self.problem.design.groups.len() {
             let Some(two) = self.two_for_one(model, one) else { continue };
@@ -61,8 +61,8 @@ impl Selection<'_> {
         }
     }
 
-    /// Findings of a joint that the hypothesis `one` may replace. There are none where another finding says how the level of
-    /// the friction varies.
+    /// Findings of a joint that the hypothesis `one` may replace. `None` where another finding makes the level of the
+    /// friction vary.
     fn two_for_one(&self, model: &HypothesisSet, one: usize) -> Option<Vec<usize>> {
         let groups = &self.problem.design.groups;
         self.find(groups[one].hypothesis)?;
@@ -73,7 +73,7 @@ impl Selection<'_> {
         (are_there && !model.iter().any(varies)).then_some(two)
     }
 
-    /// Replaces findings by simpler rivals that have as much evidence: the inertia of the link behind a joint by its rotor
+    /// Replaces findings by simpler rivals with as much evidence: the inertia of the link behind a joint by its rotor
     /// inertia, a gear ratio by a torque constant, friction that grows with the load or differs with the direction by
     /// Coulomb friction, friction of shared motors by that of each joint.
     fn prefer_simpler(&self, model: &mut HypothesisSet) {
@@ -99,7 +99,7 @@ impl Selection<'_> {
         evidence(other).zip(evidence(model)).is_some_and(|(o, m)| o > m - least)
     }
 
-    /// The model without `g`, and with the first special case of `g` that qualifies then: `g` has excluded it so far.
+    /// The model without `g`, and with the first special case of `g` that then qualifies: `g` excluded it before.
     pub fn without(&self, model: &HypothesisSet, g: usize) -> HypothesisSet {
         let mut smaller = model_without(model, g);
         let Some(fit) = self.problem.fit(&smaller) else { return smaller };
@@ -115,8 +115,8 @@ impl Selection<'_> {
         smaller
     }
 
-    /// Special cases of `g`: its simpler rivals, the friction whose level it makes vary, and hypotheses with fewer weights
-    /// that it excludes.
+    /// Special cases of `g`: its simpler rivals, the friction whose level it makes vary, and the hypotheses with
+    /// fewer weights that it excludes.
     fn special_cases_of(&self, g: usize) -> Vec<usize> {
         let groups = &self.problem.design.groups;
         let own = &groups[g];
@@ -158,9 +158,9 @@ impl Selection<'_> {
         }
     }
 
-    /// The model with two hypotheses of one joint that predict better together, where the first, which reduces a described
-    /// parameter, does not alone. Described damping that is too large and missing Coulomb friction cancel, so neither enters
-    /// alone.
+    /// The model with two hypotheses of one joint that predict better together. The first reduces a described
+    /// parameter and does not predict better alone. Described damping that is too large and missing Coulomb friction
+    /// cancel, for example, so neither enters alone.
     fn pair(
         &self,
         model: &HypothesisSet,
@@ -224,7 +224,7 @@ impl Selection<'_> {
         ranked.into_iter().map(|(g, _)| g).collect()
     }
 
-    /// Gain in log evidence (nats) from adding `g` to a model, of which `fit` is the fit.
+    /// Gain in log evidence (nats) from adding `g` to a model, whose fit is `fit`.
     pub fn evidence_gain(&self, model: &HypothesisSet, fit: &Fit, g: usize) -> f64 {
         let columns = self.problem.new_columns(model, g);
         if columns.is_empty() || self.is_excluded(model, g) {
@@ -236,8 +236,8 @@ impl Selection<'_> {
         }
     }
 
-    /// Gain in log evidence (nats) from adding `g` to the model with all its simpler rivals: friction of shared motors is
-    /// compared with that of each joint by itself.
+    /// Gain in log evidence (nats) from adding `g` to the model that also has all its simpler rivals. Friction of
+    /// shared motors is thus compared with friction of each single joint.
     fn evidence_beyond_simpler(&self, model: &HypothesisSet, g: usize) -> f64 {
         let mut plain = model.clone();
         plain.extend(self.simpler_than(g));
@@ -246,12 +246,12 @@ impl Selection<'_> {
         fit.evidence_of(&self.problem.info, &columns, &self.problem.design.prior)
     }
 
-    /// Whether `h` must add to its simpler rivals, and adds too little to a model with them.
+    /// Whether `h` must explain more than its simpler rivals, but adds too little to a model with them.
     fn adds_too_little(&self, model: &HypothesisSet, h: usize) -> bool {
         self.adds_to_simpler(h) && self.evidence_beyond_simpler(model, h) <= self.least_evidence(h)
     }
 
-    /// Whether `g` must have evidence beyond its simpler rivals.
+    /// Whether `g` needs evidence beyond its simpler rivals.
     fn adds_to_simpler(&self, g: usize) -> bool {
         let traits = self.problem.design.groups[g].hypothesis.traits();
         traits.is_some_and(Traits::adds_to_the_plain)
@@ -264,8 +264,8 @@ impl Selection<'_> {
         if hypothesis.is_imitable() { t.evidence_of_imitable } else { t.evidence }
     }
 
-    /// The model with a rare effect replaced by its simpler rivals, where its evidence beyond these is less than an effect
-    /// that few arms have needs.
+    /// The model with a rare effect replaced by its simpler rivals, where its evidence beyond them is less than an
+    /// effect of few arms needs.
     pub fn without_rare(&self, model: &HypothesisSet) -> Option<HypothesisSet> {
         let is_rare = |g: &usize| {
             let prior_log_odds_against = self.problem.design.groups[*g]
@@ -281,7 +281,7 @@ impl Selection<'_> {
         Some(plain)
     }
 
-    /// Whether the model already has another name for the same change. A more general `g` is not excluded: asymmetric
+    /// Whether the model already has another name for the same change. A more general `g` is allowed: asymmetric
     /// friction contains Coulomb friction.
     pub fn is_excluded(&self, model: &HypothesisSet, g: usize) -> bool {
         let groups = &self.problem.design.groups;
@@ -307,8 +307,8 @@ impl Selection<'_> {
         self.admits(&all, g) && self.is_body(model, g, &all)
     }
 
-    /// Whether a change of a link's inertia explains most of the same when every inertia is made physical; true for other
-    /// effects.
+    /// Whether a change of a link's inertia still explains most of the same when every inertia is made physical. True
+    /// for other effects.
     fn is_body(&self, model: &HypothesisSet, g: usize, weights: &[f64]) -> bool {
         let (problem, design) = (self.problem, self.problem.design);
         if design.groups[g].hypothesis.link().is_none() {
@@ -332,8 +332,8 @@ impl Selection<'_> {
         changes && group.hypothesis.admissible(self.robot, &own, &self.problem.thresholds.priors)
     }
 
-    /// Whether `larger`, which has `g`, lowers the error of held-out blocks by enough: by the practical share, or by half of
-    /// what was left (RMS).
+    /// Whether `larger`, which has `g`, lowers the error of held-out blocks by enough: by the practical share, or by
+    /// half of the residual (RMS).
     pub fn pays(&self, before: &HeldOutResiduals, larger: &HypothesisSet, g: usize) -> bool {
         let after = self.problem.hold_out(larger);
         let share = self.thresholds().remaining_share;
@@ -344,7 +344,7 @@ impl Selection<'_> {
         after.deviance < before.deviance && self.problem.design.groups[g].joints.iter().any(enough)
     }
 
-    /// Replaces a hypothesis by one outside where that is more evident and no worse held out.
+    /// Replaces a hypothesis by one outside the model that has more evidence and predicts held-out blocks no worse.
     fn exchange(&self, model: &mut HypothesisSet) {
         for g in model.clone() {
             let Some(fit) = self.problem.fit(model) else { return };
@@ -377,8 +377,8 @@ impl Selection<'_> {
         }
     }
 
-    /// Hypotheses that share a joint with `g` and that the catalogue says are confused with it; between two encoders, all
-    /// that share a joint.
+    /// Hypotheses that share a joint with `g` and that the catalogue lists as confused with it. Between two encoders,
+    /// all hypotheses that share a joint.
     pub fn neighbours(&self, g: usize) -> Vec<usize> {
         let groups = &self.problem.design.groups;
         let confused = groups[g].hypothesis.kind.entry().confused_with;

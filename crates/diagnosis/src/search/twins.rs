@@ -9,8 +9,8 @@ use crate::search::paired_difference::PairedDifference;
 use crate::search::rivals::{contenders, with_rival};
 use crate::search::select::Selection;
 
-/// Twins are two effects whose columns are the same about the robot without them, such as a delay and a lag. They are
-/// compared about the robots that have one or the other.
+/// Twins are two effects with the same columns about the robot without them, such as a delay and a lag. They are
+/// compared about the robots that have one of them.
 #[derive(Debug)]
 pub(crate) struct Twins<'a> {
     pub inputs: &'a Inputs<'a>,
@@ -24,7 +24,7 @@ pub(crate) type Separated = BTreeSet<(usize, usize)>;
 #[derive(Debug, Default)]
 pub(crate) struct TwinDecision {
     pub separated: Separated,
-    /// The model with the best twin in the place of a finding, where one does better.
+    /// The model with the best twin in place of a finding, where it does better.
     pub better: Option<HypothesisSet>,
 }
 
@@ -67,7 +67,7 @@ impl Twins<'_> {
         model.iter().flat_map(of).collect()
     }
 
-    /// Weighted sum of squares that a fitted model leaves of every independent group of blocks.
+    /// Weighted sum of squares of a fitted model on every independent group of blocks.
     fn deviance(&self, model: &HypothesisSet, fitted: &FittedModel) -> Vec<f64> {
         let first = self.inputs.first_fit(self.selection.problem, model, fitted);
         let last = fitted.last_fit(first);

@@ -8,8 +8,8 @@ use crate::signals::limit::Limit;
 use crate::signals::tone::{Beat, Tone};
 use crate::thresholds::signals::SignalThresholds;
 
-/// Rate at which effects are evaluated, in cut-off frequencies: the harmonics that a sign
-/// or a product makes of a signal limited to the cut-off stay far from folding into the band.
+/// Rate at which effects are evaluated, in cut-off frequencies. A sign or a product makes harmonics of a signal below
+/// the cut-off; at this rate they do not alias into the band.
 const EVALUATION_RATE: f64 = 16.0;
 
 /// Rate of the regression, in cut-off frequencies: just above twice the band.
@@ -18,13 +18,13 @@ pub(crate) const REGRESSION_RATE: f64 = 2.5;
 /// Order of the low-pass filter, before it runs forward and backward.
 const ORDER: usize = 4;
 
-/// Cut-off of the filter before the signals of a log are thinned, in cut-offs of the regression.
+/// Cut-off of the filter before the signals of a log are decimated, in cut-offs of the regression.
 const THINNING: f64 = 4.0;
 
-/// Least RMS value behind the low-pass of a sine of amplitude one that is in its band.
+/// Least RMS value, after the low-pass, of a sine of amplitude one that counts as in the band.
 const IN_BAND: f64 = 1e-4;
 
-/// A sine of size one along a run, behind the low-pass, at the rate of the regression.
+/// A sine of amplitude one along a run, after the low-pass, at the rate of the regression.
 #[derive(Debug, Clone)]
 pub(crate) struct Wave {
     /// `L exp(i rate (beat - origin))`
@@ -33,23 +33,23 @@ pub(crate) struct Wave {
     pub slopes: Vec<Complex<f64>>,
 }
 
-/// One run at the rate at which effects are evaluated, and how its signals are brought to that
-/// of the regression.
+/// One run at the rate at which effects are evaluated, and the decimation of its signals to the rate of the
+/// regression.
 pub(crate) struct Along<'a> {
     /// The motion about a robot.
     pub motion: RunMotion,
     run: &'a PreparedRun,
-    /// `[joint][sample]`: one where the signals of a joint count, else zero; empty where they count everywhere.
+    /// `[joint][sample]`: one where the signals of a joint count, else zero. Empty where they count everywhere.
     counts: Vec<Vec<f64>>,
     /// `[joint][_][sample]`: an orthonormal basis of the tones that the effort may contain.
     tone_basis: Vec<Vec<Vec<f64>>>,
     limits: &'a [Limit],
     thresholds: &'a SignalThresholds,
-    /// Whether readings of the efforts are noisy.
+    /// Whether the effort readings are noisy.
     noisy: bool,
     cutoff_hz: f64,
     low_pass: LowPass,
-    /// Samples of the run to one of the motion, and of the motion to one of the regression.
+    /// Number of samples of the run per sample of the motion, and of the motion per sample of the regression.
     strides: [usize; 2],
     /// Rate of the regression (Hz).
     pub rate_hz: f64,
@@ -100,10 +100,10 @@ impl<'a> Along<'a> {
         })
     }
 
-    /// Sets efforts and columns to zero while a joint stands: dry friction holds it there with any part of its level.
+    /// Sets efforts and columns to zero while a joint stands, where dry friction holds it with any part of its level.
     ///
-    /// This comes before the low-pass, so that nothing of a standstill reaches the samples beside it, and the model
-    /// stays true:
+    /// The mask precedes the low-pass, so that a standstill does not affect the samples beside it, and the model
+    /// stays valid:
     ///
     /// ```text
     /// L(m effort) = L(m columns) weights + L(m noise),   m = 1 while the joint moves, else 0
@@ -113,7 +113,7 @@ impl<'a> Along<'a> {
         self
     }
 
-    /// Takes tones out of efforts and columns alike.
+    /// Removes tones from efforts and columns alike.
     pub fn with_tones(mut self, tones: &[Tone]) -> Result<Self, LogError> {
         for tone in tones {
             self.project_out(tone)?;
@@ -121,7 +121,7 @@ impl<'a> Along<'a> {
         Ok(self)
     }
 
-    /// One where joint `j` moves, else zero. Zero is also what lies within the reach of the thinning filter of a
+    /// One where joint `j` moves, else zero. Also zero are the samples within reach of the decimation filter from a
     /// standstill, the end of the run, which a late torque needs, and the start of a noisy run.
     fn moving_mask(&self, j: usize) -> Vec<f64> {
         let thins = self.strides[0] > 1;
@@ -130,7 +130,7 @@ impl<'a> Along<'a> {
         away.into_iter().map(|away| f64::from(u8::from(away))).collect()
     }
 
-    /// Adds a tone to the basis of the tones at its joint, if the band contains any of it.
+    /// Adds a tone to the basis of the tones at its joint, if any of it lies in the band.
     fn project_out(&mut self, tone: &Tone) -> Result<(), LogError> {
         let beat = match tone.beat {
             Beat::Position(_) => &self.run.joints[tone.joint].wide.q,
@@ -150,7 +150,7 @@ impl<'a> Along<'a> {
         Ok(())
     }
 
-    /// A signal of the efforts at joint `j`, at the rate of the regression, orthogonal to the tones there.
+    /// An effort signal at joint `j`, at the rate of the regression, orthogonal to the tones there.
     fn without_tones(&self, j: usize, mut x: Vec<f64>) -> Vec<f64> {
         for sine in &self.tone_basis[j] {
             let size: f64 = x.iter().zip(sine).map(|(x, s)| x * s).sum();
@@ -159,13 +159,13 @@ impl<'a> Along<'a> {
         x
     }
 
-    /// A signal of joint `j` where it counts, low-passed, at the rate of the regression.
+    /// A signal of joint `j`, masked, low-passed and decimated to the rate of the regression.
     pub fn finish(&self, j: usize, mut x: Vec<f64>) -> Vec<f64> {
         self.finish_all([(j, &mut x)]);
         x
     }
 
-    /// [`Along::finish`] for many signals, each with its joint.
+    /// [`Along::finish`] for many signals, each given with its joint.
     fn finish_all<'x>(&self, signals: impl IntoIterator<Item = (usize, &'x mut Vec<f64>)>) {
         let mut signals: Vec<&mut Vec<f64>> = signals
             .into_iter()
@@ -185,8 +185,9 @@ impl<'a> Along<'a> {
         (self.thresholds.filter_reach / (cutoff_hz * self.motion.period_s)).round() as usize
     }
 
-    /// Whether a sample of the motion is more than `margin` away from where a joint `rests`, and out of reach of the
-    /// low-pass from the end of the run, which a late torque needs, and from the start of a noisy run.
+    /// Whether a sample of the motion is more than `margin` away from samples at which a joint `rests`. It must also be
+    /// out of reach of the low-pass from the end of the run, which a late torque needs, and from the start of a noisy
+    /// run.
     fn is_away(&self, rests: &[bool], margin: usize) -> Vec<bool> {
         let end = self.reach(self.cutoff_hz).min(rests.len());
         let mut away = vec![true; rests.len()];
@@ -199,7 +200,8 @@ impl<'a> Along<'a> {
         away
     }
 
-    /// Whether a sample at the rate of the regression is out of reach of the low-pass from where a joint `rests`.
+    /// Whether a sample at the rate of the regression is out of reach of the low-pass from samples at which a joint
+    /// `rests`.
     fn is_clear(&self, rests: &[bool]) -> Vec<bool> {
         let away = self.is_away(rests, self.reach(self.cutoff_hz));
         away.into_iter().step_by(self.strides[1]).collect()
@@ -215,13 +217,13 @@ impl<'a> Along<'a> {
         decimate(&decimate(&self.run.time, self.strides[0]), self.strides[1])
     }
 
-    /// Signals of the motion, `[joint][sample]`, at the rate of the regression, as they are.
+    /// Signals of the motion, `[joint][sample]`, decimated to the rate of the regression without a filter.
     pub fn thin(&self, signals: &[Vec<f64>]) -> Vec<Vec<f64>> {
         signals.iter().map(|x| decimate(x, self.strides[1])).collect()
     }
 
-    /// Whether dry friction holds joint `j` at a sample at the rate of the regression, or the low-pass mixes in a moment
-    /// at which it does.
+    /// Whether dry friction holds joint `j` at a sample at the rate of the regression, or at a moment that the
+    /// low-pass mixes into the sample.
     pub fn stands(&self, j: usize) -> Vec<bool> {
         self.is_clear(&self.motion.stands(j)).iter().map(|is_clear| !is_clear).collect()
     }
@@ -232,15 +234,15 @@ impl<'a> Along<'a> {
         moving_mask.into_iter().map(|share| share > self.thresholds.informative_share).collect()
     }
 
-    /// Whether joint `j` slides at a sample at the rate of the regression: it does not change its direction there.
+    /// Whether joint `j` slides at a sample at the rate of the regression, without changing its direction there.
     pub fn slides(&self, j: usize) -> Vec<bool> {
         let (rests, stands) = (self.motion.rests(j), self.motion.stands(j));
         let turns: Vec<bool> = rests.iter().zip(stands).map(|(rests, s)| *rests && !s).collect();
         self.is_clear(&turns)
     }
 
-    /// The columns of one effect, low-passed, at the rate of the regression, orthogonal to the tones: the sizes of tones
-    /// are fitted with those of all effects.
+    /// The columns of one effect, low-passed, at the rate of the regression and orthogonal to the tones. The sizes of
+    /// tones are thereby fitted together with those of all effects.
     pub fn finish_columns(&self, mut columns: Vec<EffectColumn>) -> Vec<EffectColumn> {
         let parts = columns.iter_mut().flatten();
         self.finish_all(parts.map(|part| (part.joint, &mut part.values)));
@@ -270,7 +272,7 @@ impl<'a> Along<'a> {
         self.run.joints[j].effort.iter().copied()
     }
 
-    /// The part of the effort at the joint of `limit` that became no torque.
+    /// The part of the effort at the joint of `limit` that did not become torque.
     pub fn beyond(&self, limit: &Limit) -> Result<Vec<f64>, LogError> {
         let beyond = self.effort(limit.joint).map(|effort| limit.beyond(effort)).collect();
         self.thin_signal(limit.joint, beyond)
@@ -285,7 +287,7 @@ impl<'a> Along<'a> {
         Ok(all)
     }
 
-    /// The clipped part of each effort, and the tones in what a robot leaves of the rest (`left`).
+    /// The clipped part of each effort, and the tones in the residual `left` of the rest.
     pub fn known_effort(&self, left: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, LogError> {
         let mut known = self.beyond_limits()?;
         for (j, known) in
@@ -332,9 +334,9 @@ impl<'a> Along<'a> {
         efforts
     }
 
-    /// Signals at the rate of the log, low-passed, at the rate of the regression. Where effects
-    /// are evaluated at a lower rate than the log's, noise is kept from folding into the band by
-    /// a filter that leaves the band itself alone (1e-5 at the cut-off).
+    /// Signals at the rate of the log, low-passed, at the rate of the regression. Where effects are evaluated at a
+    /// lower rate than that of the log, a filter first keeps noise from aliasing into the band. It leaves the band
+    /// itself unchanged (1e-5 at the cut-off).
     fn thin_signals(&self, efforts: Vec<Vec<f64>>) -> Result<Vec<Vec<f64>>, LogError> {
         let thin_signal = |(j, effort)| self.thin_signal(j, effort);
         efforts.into_par_iter().enumerate().map(thin_signal).collect()
@@ -349,8 +351,8 @@ impl<'a> Along<'a> {
     }
 }
 
-/// Whether the noise of the efforts is more than a share `least` of them: the RMS difference of neighbouring readings
-/// over `sqrt 2`, over all joints.
+/// Whether the noise of the efforts is more than a share `least` of them. The noise is the RMS difference of
+/// neighbouring readings over `sqrt 2`, over all joints.
 fn is_noisy(run: &PreparedRun, least: f64) -> bool {
     let efforts = || run.joints.iter().map(|joint| &joint.effort);
     let steps: f64 =
@@ -359,7 +361,7 @@ fn is_noisy(run: &PreparedRun, least: f64) -> bool {
     0.5 * steps > least * least * whole
 }
 
-/// The signals of all joints minus others.
+/// The signals `others` subtracted from the signals of all joints.
 pub(crate) fn minus(from: &[Vec<f64>], others: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let of_joint = |(x, y): (&Vec<f64>, &Vec<f64>)| x.iter().zip(y).map(|(x, y)| x - y).collect();
     from.iter().zip(others).map(of_joint).collect()

@@ -10,9 +10,9 @@ use crate::thresholds::signals::SignalThresholds;
 /// at a rate of 2.5 cut-off frequencies (N m or N).
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeftOver {
-    /// The efforts of the log, behind the low-pass.
+    /// The efforts of the log, after the low-pass.
     pub measured: Vec<Vec<f64>>,
-    /// The same minus the efforts that the robot needs for the motion, behind the same low-pass.
+    /// The same minus the efforts that the robot needs for the motion, after the same low-pass.
     pub left: Vec<Vec<f64>>,
 }
 
@@ -22,13 +22,13 @@ pub struct LeftOver {
 /// left = L(clamp(effort, -limit, limit) - effort of the robot),   measured = L(effort)
 /// ```
 ///
-/// with the drives as they are described, including delays, encoder errors and elastic transmissions, which no function
-/// of the state `q, qd, qdd` has ([`effects::RunMotion`]). The limit is that of the joint; measured efforts have none,
-/// since they were torque. Joints count as at rest below `rest_speed` (rad/s or m/s).
+/// with the drives as they are described. Their delays, encoder errors and elastic transmissions are no functions of
+/// the state `q, qd, qdd` ([`effects::RunMotion`]). The limit is that of the joint; measured efforts have none, since
+/// they are torque. Joints count as at rest below `rest_speed` (rad/s or m/s).
 ///
 /// # Errors
 ///
-/// [`LogError`] for runs that no low-pass can be made for.
+/// [`LogError`] for runs whose rate allows no low-pass.
 ///
 /// # Panics
 ///
@@ -48,7 +48,7 @@ pub fn unexplained_torque(
     logs.runs.iter().map(of).collect()
 }
 
-/// What the robot of `along` leaves of the efforts that became torque.
+/// The residual of the robot of `along`, from the efforts that became torque.
 fn of_run(along: &Along) -> Result<LeftOver, LogError> {
     let measured = along.measured_effort()?;
     let mut left = along.remaining_effort(&measured);
@@ -58,7 +58,7 @@ fn of_run(along: &Along) -> Result<LeftOver, LogError> {
     Ok(LeftOver { measured, left })
 }
 
-/// The limits that a description states of drives whose efforts are commands.
+/// The described limits of drives whose efforts are commands.
 fn described_limits(robot: &Robot) -> Vec<Limit> {
     let limit = |(joint, link): (usize, &robot::Link)| {
         // A URDF that knows no limit often states one of zero.

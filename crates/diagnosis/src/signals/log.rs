@@ -10,7 +10,7 @@ use crate::signals::response::Response;
 use crate::signals::tone::Tone;
 use crate::thresholds::Thresholds;
 
-/// The logs from which a design is made, and what is already known of them.
+/// The logs from which a design is made, with what is known of them already.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Log<'a> {
     pub prepared: &'a Prepared,
@@ -18,26 +18,26 @@ pub(crate) struct Log<'a> {
     pub moved: &'a [bool],
     /// Oscillations of the efforts.
     pub tones: &'a [Tone],
-    /// Torque limits: effort beyond them became no torque.
+    /// Torque limits; effort beyond them did not become torque.
     pub limits: &'a [Limit],
     /// Effects that are not looked for.
     pub without: &'a [EffectKind],
     /// The signal that a design of these logs explains.
     pub response: Response,
-    /// The described robot, where second encoders have shown its drives to be otherwise: efforts are then compared
-    /// with those of this robot, while a design is about another one.
+    /// The described robot, where second encoders have shown that its drives differ. Efforts are then compared with
+    /// those of this robot, while a design is about another robot.
     pub described: Option<&'a Robot>,
     pub thresholds: &'a Thresholds,
 }
 
 impl<'a> Log<'a> {
-    /// The efforts of some logs, of which nothing is known yet.
+    /// The efforts of some logs, without tones and limits yet.
     pub fn new(prepared: &'a Prepared, moved: &'a [bool], thresholds: &'a Thresholds) -> Self {
         let (tones, limits, without, response) = (&[], &[], &[], Response::Effort);
         Self { prepared, moved, tones, limits, without, response, described: None, thresholds }
     }
 
-    /// The same logs for a design of the twist between two encoders, in which tones and limits of the efforts play no part.
+    /// The same logs for a design of the twist between two encoders, which ignores tones and limits of the efforts.
     pub fn of_twist(&self) -> Self {
         Self { tones: &[], limits: &[], response: Response::Twist, described: None, ..*self }
     }
@@ -47,7 +47,7 @@ impl<'a> Log<'a> {
         self.prepared.runs.iter().all(|run| run.joints[j].link.is_some())
     }
 
-    /// The joints whose rows a design has.
+    /// The joints that a design has rows for.
     pub fn rows(&self) -> Vec<bool> {
         let has = |(j, moved): (usize, &bool)| {
             *moved && (self.response == Response::Effort || self.shows_link(j))
@@ -55,8 +55,8 @@ impl<'a> Log<'a> {
         self.moved.iter().enumerate().map(has).collect()
     }
 
-    /// Whether a design of these logs includes a hypothesis. Two encoders show what lies between motor and link by
-    /// themselves, so that a design of the efforts leaves it out where there are two.
+    /// Whether a design of these logs includes a hypothesis. Two encoders show the effects between motor and link by
+    /// themselves, so a design of the efforts leaves these out where there are two.
     pub fn includes(&self, hypothesis: Hypothesis) -> bool {
         let shown = hypothesis.before_the_link().is_some_and(|j| self.shows_link(j));
         let moved = hypothesis.joint().is_none_or(|j| self.moved[j]);
@@ -64,7 +64,7 @@ impl<'a> Log<'a> {
         wanted && moved && shown == (self.response == Response::Twist)
     }
 
-    /// `robot` along every run; of its efforts, those while its joints move.
+    /// `robot` evaluated along every run, with its efforts only while its joints move.
     pub fn along(&self, robot: &Robot, frame: &Frame) -> Result<Vec<Along<'a>>, LogError> {
         let evaluate = |run| {
             let along = self.along_run(robot, frame, run)?;
@@ -75,7 +75,7 @@ impl<'a> Log<'a> {
         self.prepared.runs.par_iter().map(evaluate).collect()
     }
 
-    /// `robot` along every run, with its efforts also while its joints stand.
+    /// `robot` evaluated along every run, with its efforts also while its joints stand.
     pub fn along_all(&self, robot: &Robot, frame: &Frame) -> Result<Vec<Along<'a>>, LogError> {
         let evaluate = |run| self.along_run(robot, frame, run)?.with_tones(self.tones);
         self.prepared.runs.par_iter().map(evaluate).collect()

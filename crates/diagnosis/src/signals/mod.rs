@@ -1,5 +1,5 @@
-//! A robot along the logs: measured and expected efforts, low-passed alike and at one rate, with oscillations and clipped
-//! efforts set aside.
+//! A robot along the logs: measured and expected efforts, low-passed alike and at one rate. Oscillations and clipped
+//! efforts are separated.
 
 pub(crate) mod along;
 pub(crate) mod left_over;

@@ -2,23 +2,23 @@ use logs::LogError;
 
 use crate::signals::along::Along;
 
-/// The remaining efforts of one run, in the wide band of the tones.
+/// The residual efforts of one run, in the wide band of the tones.
 pub(crate) struct Rest<'a> {
     /// The run about the robot.
     pub along: Along<'a>,
     /// Time (s).
     pub time: Vec<f64>,
-    /// `[joint][sample]`: position and velocity of the motors, effort that is left.
+    /// `[joint][sample]`: position and velocity of the motors, residual effort.
     pub q: Vec<Vec<f64>>,
     pub qd: Vec<Vec<f64>>,
     pub left: Vec<Vec<f64>>,
-    /// Whether dry friction holds the joint, or the low-pass mixes in a moment at which it does.
+    /// Whether dry friction holds the joint at a sample, or at a moment that the low-pass mixes into the sample.
     pub stands: Vec<Vec<bool>>,
 }
 
 impl<'a> Rest<'a> {
-    /// The efforts minus those of the robot of `along`, with the positions and velocities of the motors and where they
-    /// stand.
+    /// The efforts minus those of the robot of `along`, with the positions and velocities of the motors and the
+    /// samples in which they stand.
     pub fn new(along: Along<'a>) -> Result<Self, LogError> {
         Ok(Self {
             time: along.time(),

@@ -25,13 +25,13 @@ pub(crate) struct Tone {
     pub joint: usize,
     /// The variable that its phase follows.
     pub beat: Beat,
-    /// `z` of every run (N·m or N): the same in all for a tone that follows the position.
+    /// `z` of every run (N·m or N), the same in all runs for a tone that follows the position.
     pub z: Vec<Complex<f64>>,
     /// Standard error of the mean amplitude (N·m or N), of the beat and of the phase at beat zero (rad).
     pub error: [f64; 3],
-    /// Least power over that of the spectrum around it, in any run.
+    /// Least ratio, over the runs, of its power to that of the spectrum around it.
     pub stands_out: f64,
-    /// Share of what was left at the joint, over the whole band, that is this tone.
+    /// Share of the joint's residual, over the whole band, that is this tone.
     pub share: f64,
 }
 
@@ -60,8 +60,8 @@ impl Tone {
         self.z.iter().map(|z| z.norm()).sum::<f64>() / self.z.len().max(1) as f64
     }
 
-    /// The phase of `sin(beat + phase)` and its standard error (rad), where the unit phasors of the runs have a mean
-    /// longer than `common_phase`.
+    /// The phase of `sin(beat + phase)` and its standard error (rad). `None` where the mean of the runs' unit phasors
+    /// is shorter than `common_phase`.
     ///
     /// A ripple is torque that the motor gives, a disturbance torque that acts on it: their signs differ.
     pub fn sine_phase(&self, common_phase: f64) -> Option<(f64, f64)> {
@@ -77,7 +77,7 @@ impl Tone {
         (alike > common_phase).then_some((phase, error))
     }
 
-    /// Gives the drive of the joint the ripple; a disturbance is no part of a robot.
+    /// Adds the ripple to the drive of the joint. A disturbance is not part of a robot and is left out.
     pub fn extend(&self, robot: &mut Robot, common_phase: f64) {
         let phase = self.sine_phase(common_phase);
         let (Beat::Position(periods), Some((phase, _))) = (self.beat, phase) else {

@@ -1,18 +1,18 @@
 /// When the effort beyond a limit counts as moving nothing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LimitThresholds {
-    /// The lowest quantile of the absolute effort that is tried as a limit (1). A limit below it would clip more than
-    /// two fifths of the log.
+    /// Lowest quantile of the absolute effort that is tried as a limit (1). A lower limit would clip more than two
+    /// fifths of the log.
     pub lowest_quantile: f64,
-    /// Share of the largest effort beyond a limit from which on a sample counts as above it (1): less is what the
-    /// low-pass spreads.
+    /// Share of the largest effort beyond a limit above which a sample counts as beyond it (1): smaller values come
+    /// from the spread of the low-pass.
     pub touched: f64,
-    /// Least share of what the other effects leave that a limit must explain (power, 1). Without this and the next two
-    /// tests, 19 false findings more in 18 trials.
+    /// Least share of the residual of the other effects that a limit must explain (power, 1). Without this and the
+    /// next two tests, 19 false findings more in 18 trials.
     pub explained: f64,
-    /// Least power of what the other effects lack above a limit, over the power that they leave below it (1).
+    /// Least power of the residual of the other effects above a limit, over its power below the limit (1).
     pub above_noise: f64,
-    /// Least power of what the other effects lack above a limit, over what is left there of the clamped effort (1).
+    /// Least power of the residual of the other effects above a limit, over that of the clamped effort there (1).
     pub above_clamped: f64,
     /// Rise of the deviance at the ends of the 95 per cent interval of a limit (nats, doubled): the 95 per cent
     /// quantile of chi squared with one degree of freedom.

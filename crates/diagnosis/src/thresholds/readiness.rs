@@ -1,10 +1,10 @@
-/// What logs can be asked for: joints that move, runs that are long enough, second encoders that follow.
+/// What the logs must have to be used: joints that move, runs that are long enough, second encoders that follow.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadinessThresholds {
     /// Range of motion up to which a joint counts as unmoved, as a share of the span of its limits or of a full turn
     /// (1): .126 rad for a joint that turns freely.
     pub unmoved_range: f64,
-    /// Share of a limit from which on an effort counts as at it (1): noise takes it to either side.
+    /// Share of a limit above which an effort counts as at the limit (1): noise takes it to either side.
     pub at_limit_from: f64,
     /// Least share of the samples at a limit that is worth a warning (1): less happens at a start or a stop.
     pub at_limit_share: f64,

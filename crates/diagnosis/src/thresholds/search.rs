@@ -3,29 +3,29 @@
 pub struct SearchThresholds {
     /// Least gain in log evidence for a hypothesis to enter or stay (nats): odds of 20 to 1.
     pub evidence: f64,
-    /// The same for an effect that an error elsewhere, or one of many trial shapes, may pass for (nats). With 3 instead
-    /// of 10, six causes more, two less and ten false findings more in 18 trials.
+    /// The same for an effect that an error elsewhere, or one of many trial shapes, may imitate (nats). With 3
+    /// instead of 10, six causes more, two less and ten false findings more in 18 trials.
     pub evidence_of_imitable: f64,
-    /// Most log evidence that a hypothesis in the place of another may lack to be its rival, or to have the name because
-    /// it is the simpler one (nats): odds of 20 to 1.
+    /// Largest lack of log evidence with which a hypothesis still is a rival of another, or is named in its place
+    /// because it is simpler (nats): odds of 20 to 1.
     pub rival_evidence: f64,
     /// Least share of a finding's held-out gain that a rival must reach (weighted squares, 1). With 0, 8 per cent more
     /// rivals in 18 trials.
     pub rival_gain: f64,
-    /// Standard errors by which one model must do worse than another over the blocks to be no rival (1). With 3, one
-    /// cause more and 9 per cent more rivals in 18 trials.
+    /// Number of standard errors, over the blocks, by which a model must do worse than another to be ruled out as a
+    /// rival (1). With 3, one cause more and 9 per cent more rivals in 18 trials.
     pub rival_errors: f64,
-    /// Least gain in log evidence for which a finding is exchanged for a neighbour (nats): less is a matter of rounding,
-    /// and two that are alike would change places for ever.
+    /// Least gain in log evidence for which a finding is exchanged for a neighbour (nats): less is rounding, and two
+    /// equal hypotheses would replace each other for ever.
     pub exchange_evidence: f64,
-    /// Least fall of a joint's held-out error that pays, as a share of what was left (RMS, 1), where that is less than
-    /// the practical share. Without it, two joints of the LWR 4 are 8 and 18 per cent worse.
+    /// Least fall of a joint's held-out error that counts, as a share of its residual (RMS, 1), where that is less
+    /// than the practical share. Without it, two joints of the LWR 4 are 8 and 18 per cent worse.
     pub remaining_share: f64,
     /// Least share of what a change of a link's inertia explains that a physical inertia must explain (1). With 0, 18
     /// per cent more rivals in 18 trials; with .5 another link takes the place of the right one
     /// (`tests/diagnosis/found.rs`); with .95 joints of the LWR 4 are worse.
     pub kept_by_bodies: f64,
-    /// Partners that are tried, the most evident ones, with a hypothesis that predicts no better alone.
+    /// Number of partners, the most evident first, that are tried with a hypothesis that predicts no better alone.
     pub partners: usize,
     /// Variation (RMS, as a share of the size, 1) beyond which an effect is not the cause. The laws of bodies, gears and
     /// sensors are exact. Without this and the next test, 13 false findings more in 18 trials.
@@ -35,8 +35,8 @@ pub struct SearchThresholds {
     pub variation_of_rough: f64,
     /// Half the fall of the weighted sum of squares on held-out blocks by which a size must vary (nats).
     pub variation_evidence: f64,
-    /// Least information on a weight, in those of its prior, that is more than rounding (1): less tells two hypotheses
-    /// apart by nothing.
+    /// Least information on a weight, in units of that of its prior, that is more than rounding (1): with less, two
+    /// hypotheses cannot be told apart.
     pub informed: f64,
 }
 

@@ -1,4 +1,4 @@
-/// Which samples speak of the effort of a joint, and which runs repeat a motion.
+/// Which samples are informative about the effort of a joint, and which runs repeat a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SignalThresholds {
     /// How far the low-pass carries the effort of a standing joint into the motion beside it, in periods of its

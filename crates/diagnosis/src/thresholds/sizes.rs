@@ -1,9 +1,9 @@
-/// How well a size is known, and what would have been found.
+/// How well a size is known, and which size the logs would have shown.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SizeThresholds {
     /// Quantile of Student's t at the upper end of a two-sided 95 per cent interval (1).
     pub interval_quantile: f64,
-    /// Probability of the region of several weights within which a change may be none (1).
+    /// Probability of the region of several weights inside which a change may be zero (1).
     pub region: f64,
     /// Share of an interval by which its ends may be off, and of a value below which nothing changes it (1): rounding.
     pub rounding: f64,
@@ -12,7 +12,7 @@ pub struct SizeThresholds {
     /// Standard errors at which an effect would be found in four cases of five by a test at level 0.005, two-sided (1):
     /// 2.81 + 0.84. With 2.84, no finding changed in 18 trials.
     pub detected: f64,
-    /// Level of a form of dry friction over that of Coulomb friction, below which nobody misses it (1).
+    /// Level of a form of dry friction over the Coulomb level, below which it does not matter (1).
     pub missed_form: f64,
     /// Weight of the divergence from the described inertias, in units of the log-likelihood (1): a pseudo-inertia that
     /// differs by its own size counts like one standard deviation.

@@ -1,46 +1,47 @@
-/// What is a line of the spectrum over time or over position, and which lines become findings.
+/// Which lines of the spectrum over time or position stand out, and which of them become findings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToneThresholds {
     /// Cut-off of the band in which tones are looked for, as a share of the sampling rate (1).
     pub band: f64,
-    /// Least width of that band, in cut-offs of the diagnosis (1): a narrower one shows nothing that the search does
-    /// not see.
+    /// Least width of that band, in cut-offs of the diagnosis (1): a narrower one shows nothing beyond the search.
     pub least_band: f64,
-    /// The highest frequency that is looked at, as a share of the cut-off of the band (1): above it the low-pass takes
-    /// too much.
+    /// Highest frequency that is searched, as a share of the cut-off of the band (1): above it the low-pass
+    /// attenuates too much.
     pub highest: f64,
-    /// The lowest frequency that is looked at (Hz).
+    /// Lowest frequency that is searched (Hz).
     pub lowest_hz: f64,
-    /// Fewest waves over the range of motion: fewer may be anything that depends on position.
+    /// Fewest waves over the range of motion: with fewer, any dependence on position looks like a wave.
     pub fewest_waves: f64,
     /// Most waves over the range of motion.
     pub most_waves: f64,
     /// Most tones of one joint.
     pub most_tones: usize,
-    /// Times that tones are looked for where there are any: what a search without them takes for their cause hides
-    /// some of them at first.
+    /// Number of searches for tones where there are any: other effects at first take the place of some tones, which
+    /// hides them.
     pub searches: usize,
     /// Least power of a line over that of the spectrum around it, in every run (1). In noise, one of `exp(20)`
     /// frequencies of a run exceeds it. With 40 instead of 20, one cause less in 18 trials.
     pub above_spectrum: f64,
-    /// Largest difference between the frequencies of two lines that are one, over that of the stronger (1).
+    /// Largest difference between the frequencies of two lines that count as one, over that of the stronger (1).
     pub one_line: f64,
     /// Least amplitude of a tone over its amplitude in another run (1), for it to be the same tone. Without it, a law
     /// that is in no catalogue becomes a disturbance (`tests/diagnosis/constant.rs`).
     pub same_in_runs: f64,
     /// Least amplitude of the common fit over the least amplitude in a run (1), for the runs to share a phase.
     pub same_phase: f64,
-    /// Amplitude of a weaker line beside a line over that of the latter, above which the two are a band that rings (1).
+    /// Ratio of the amplitudes of a weaker and a stronger line side by side, above which they are a band that rings
+    /// (1).
     pub ringing: f64,
     /// Least length of the mean of the unit phasors of all runs for a phase to be reported (1).
     pub common_phase: f64,
-    /// Least share (RMS, 1) of what is left in the band of the diagnosis that a tone in that band must explain: what
-    /// motion makes of an effect that is not found has lines there too.
+    /// Least share (RMS, 1) of the residual in the band of the diagnosis that a tone there must explain: an effect
+    /// that is not found also has lines in that band, from the motion.
     pub share_in_band: f64,
-    /// Least share (power, 1) of what is left in every window that a tone as slow as the motion must explain. With .25,
-    /// five false findings more in 18 trials.
+    /// Least share (power, 1) of the residual in every window that a tone as slow as the motion must explain. With
+    /// .25, five false findings more in 18 trials.
     pub share_of_slow: f64,
-    /// Share (power, 1) of a joint's velocity at the frequency of a slow tone above which the tone may be the motion's.
+    /// Share (power, 1) of a joint's velocity at the frequency of a slow tone above which the tone may come from the
+    /// motion.
     pub share_of_motion: f64,
     /// Cut-off of what a slow tone is compared with, in bandwidths of the motion (1).
     pub slow_band: f64,

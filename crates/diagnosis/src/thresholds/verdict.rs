@@ -1,13 +1,13 @@
-/// What is left at a joint, and what it means.
+/// What the residual of a joint means.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VerdictThresholds {
-    /// How far above the noise the remaining error may be and still be noise, however long the log is (RMS, 1): a
+    /// Ratio of the residual to the noise up to which it still counts as noise, however long the log is (RMS, 1): a
     /// density read from a spectrum is some ten per cent off.
     pub noise_factor: f64,
-    /// The same where the effort is a command, which holds what a controller makes of encoder steps (RMS, 1). With 1.2,
-    /// a clean WAM is no longer consistent (`tests/diagnosis/hidden.rs`).
+    /// The same where the effort is a command, which contains the response of a controller to encoder steps (RMS, 1).
+    /// With 1.2, a clean WAM is no longer consistent (`tests/diagnosis/hidden.rs`).
     pub commanded_noise_factor: f64,
-    /// Standard errors of an RMS by which it may exceed that (1). With 3, no trial of 18 changed.
+    /// Number of standard errors of an RMS by which the residual may exceed that (1). With 3, no trial of 18 changed.
     pub rms_errors: f64,
     /// Share of the effort's RMS above which a remaining error of the size of noise leaves a joint open, unless the
     /// noise is the effort's own and the joint has no cause of its own (1).

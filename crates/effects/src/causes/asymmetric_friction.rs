@@ -104,7 +104,7 @@ impl Effect for AsymmetricFriction {
 }
 
 impl IsRestricted<AtJoint> for AsymmetricFriction {
-    /// A larger difference is that of an offset.
+    /// A larger difference is attributed to an offset.
     fn admissible(
         &self,
         AtJoint(j): AtJoint,
@@ -121,7 +121,7 @@ impl IsRestricted<AtJoint> for AsymmetricFriction {
 }
 
 impl HasPlainer<AtJoint> for AsymmetricFriction {
-    /// Half the change of the difference, without which both levels change alike.
+    /// Half the change of the difference; at zero both levels change alike.
     fn more_than_plain(
         &self,
         AtJoint(j): AtJoint,

@@ -14,8 +14,8 @@ use crate::priors::Priors;
 use crate::quantity::{EffectQuantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Location, Traits, Weights};
 
-/// Motor and link apart by half the gap on the side of the load: one weight a joint, the change
-/// of the gap (rad or m).
+/// Motor and link are apart by half the gap, on the side of the load. One weight a joint: the change of the gap (rad
+/// or m).
 ///
 /// The time that the link takes from side to side grows with the third root of the gap, and signals delayed by a tenth
 /// of a second are uncorrelated with the undelayed ones. So a robot without a gap gets the column of a trial gap, and

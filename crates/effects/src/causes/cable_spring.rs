@@ -23,11 +23,11 @@ use crate::traits::{Imitable, Law, Linearity, Location, Traits, Weights};
 /// x + dh / d stiffness,   x³,   dh / d hysteresis,   -(stiffness + 3 cubic x²)
 /// ```
 ///
-/// For a spring without a cubic term the rest position is equivalent to a torque offset. Where the rest position
-/// may lie within the range of motion, the logs decide nothing between the two, and the spring is named.
+/// For a spring without a cubic term, the rest position is equivalent to a torque offset. Where the rest position may
+/// lie within the range of motion, the logs cannot decide between the two, and the spring is named.
 pub(crate) struct CableSpring;
 
-/// Displacement over which a loop builds up in a robot that has none yet, over the range of motion.
+/// Displacement over which a loop builds up in a robot without one, as a share of the range of motion.
 const WAY: f64 = 1.0 / 16.0;
 
 /// Least and largest change of a loop in one step, over the loop.

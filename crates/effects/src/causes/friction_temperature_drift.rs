@@ -43,7 +43,7 @@ fn has_size(warming: Warming) -> bool {
     warming.viscous_lost > 0.0 || warming.coulomb_lost > 0.0
 }
 
-/// Share of the cold drive's friction at a speed of one that a warm one has lost.
+/// Share of the cold drive's friction at speed one that a warm drive has lost.
 fn share(drive: &Actuator) -> f64 {
     let level = 0.5 * (drive.coulomb_forward + drive.coulomb_backward);
     let cold = level + SHARE_SPEED * drive.viscous;

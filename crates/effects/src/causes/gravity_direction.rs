@@ -94,7 +94,7 @@ impl Effect for GravityDirection {
 }
 
 impl IsRestricted<AtBase> for GravityDirection {
-    /// A tilt at the limit of the linear columns is refused.
+    /// A tilt at the limit of the linear columns is rejected.
     fn admissible(&self, _: AtBase, _: &Robot, weights: &[f64], priors: &Priors) -> bool {
         weights.iter().all(|tilt| tilt.abs() < (1.0 - 1e-9) * priors.tilt_limit_rad)
     }

@@ -14,8 +14,9 @@ use crate::priors::Priors;
 use crate::quantity::{EffectQuantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Location, Relation, RevealedBy, Traits, Weights};
 
-/// Dry friction that builds up over a way. A robot without it has one weight a joint: the friction (N·m or N) that
-/// builds up over a small way instead of at once. A robot with it has two: the changes of the way and of the damping.
+/// Dry friction that builds up over a displacement, the way. A robot without it has one weight a joint: the friction
+/// (N·m or N) that builds up over a small way instead of at once. A robot with it has two: the changes of the way and
+/// of the damping.
 ///
 /// ```text
 /// s(way) - sign(qd)
@@ -23,7 +24,7 @@ use crate::traits::{Imitable, Law, Linearity, Location, Relation, RevealedBy, Tr
 /// ```
 pub(crate) struct PreslidingFriction;
 
-/// Way of the column of a robot without one (rad or m).
+/// Way of the column of a robot without presliding (rad or m).
 const SMALL: f64 = 0.002;
 
 /// Relative step of the way in the central difference.

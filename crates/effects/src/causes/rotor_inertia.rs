@@ -88,7 +88,7 @@ impl Effect for RotorInertia {
 }
 
 impl CanBeUnsound<AtJoint> for RotorInertia {
-    /// Whether the rotor inertia is above zero. A fit that removes it whole imitates another cause.
+    /// Whether the rotor inertia is above zero. A fit that removes all of it imitates another cause.
     fn is_sound(&self, AtJoint(j): AtJoint, extended: &Robot, _: &Priors) -> bool {
         extended.links()[j].actuator.rotor_inertia > 0.0
     }

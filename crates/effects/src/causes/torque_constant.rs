@@ -90,7 +90,7 @@ impl Effect for TorqueConstant {
 }
 
 impl IsRestricted<AtJoint> for TorqueConstant {
-    /// A gain at its limit is refused.
+    /// A gain at its limit is rejected.
     fn admissible(
         &self,
         AtJoint(j): AtJoint,

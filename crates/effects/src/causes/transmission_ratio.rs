@@ -116,7 +116,7 @@ impl BetweenEncoders for TransmissionRatio {
 }
 
 impl IsRestricted<AtJoint> for TransmissionRatio {
-    /// A ratio at its limit is refused.
+    /// A ratio at its limit is rejected.
     fn admissible(
         &self,
         AtJoint(j): AtJoint,

@@ -1,4 +1,4 @@
-//! Effects that columns of constant weights cannot hold: what a model of them would need, and what undoes them.
+//! Effects without columns of constant weights: what a model of them would need, and how they are compensated.
 
 /// An effect without a model.
 #[derive(Debug, Clone, Copy)]

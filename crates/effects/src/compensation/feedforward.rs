@@ -26,13 +26,11 @@ use crate::motion::drive::{motor_torque, spring_torque};
 /// friction and the loop of a spring build up after a reversal are left out: only their levels are
 /// asked for.
 ///
-/// `qd_motor` and `qdd_motor` are those of the motion plus central differences of
-/// `q_motor - q`. `tau_0 = M_jj(q) x 1 rad/s²` is the load that gives the links one unit of
-/// acceleration: beyond it the load knows its side of the gap. Damping of a transmission has no
-/// key in the description and is left out.
-///
-/// Friction stays within its levels, the lead within `backlash / 2` and the twist
-/// `|tau_link| / elasticity`, and both are smooth, so that no reversal makes them jump.
+/// `qd_motor` and `qdd_motor` are those of the motion plus central differences of `q_motor - q`. `tau_0 = M_jj(q) x 1
+/// rad/s²` is the load that gives the links one unit of acceleration: above it the sign of the load sets the side of
+/// the gap. The damping of a transmission has no key in the description and is left out.
+/// Friction stays within its levels, the lead within `backlash / 2` plus the twist `|tau_link| / elasticity`. Both
+/// are smooth, so that they do not jump at a reversal.
 ///
 /// An actuator with a delay needs the `tau` of the motion [`delay_s`](Self::delay_s) ahead. Leads are those of the
 /// present.
@@ -94,7 +92,7 @@ impl Compensation {
     ///
     /// # Panics
     ///
-    /// When `rest_speed` is of another number of joints.
+    /// When `rest_speed` does not have one entry a joint.
     pub fn new(robot: &Robot, rest_speed: Vec<f64>) -> Self {
         assert_eq!(rest_speed.len(), robot.joint_count(), "one rest speed a joint");
         let drives: Vec<Actuator> = robot.links().iter().map(|l| l.actuator.clone()).collect();
@@ -102,14 +100,14 @@ impl Compensation {
         Self { dynamics: Dynamics::new(robot), drives, rest_speed, delay_s }
     }
 
-    /// Number of states that [`fill`](Self::fill) takes: the instant alone, and one more to each
-    /// side of it for transmissions that give way and for torques that lag.
+    /// Number of states that [`fill`](Self::fill) takes: the instant itself, and one more on each side for compliant
+    /// transmissions and for torques that lag.
     pub fn state_count(&self) -> usize {
         let some = |has: fn(&Actuator) -> bool| 2 * usize::from(self.drives.iter().any(has));
         1 + some(|drive| !is_rigid(drive)) + some(|drive| drive.lag_s > 0.0)
     }
 
-    /// Whether what is reported can be ahead of the reference at any joint.
+    /// Whether the reported position can be ahead of the reference at any joint.
     pub fn leads(&self) -> bool {
         let truly = |a: &Actuator| {
             a.transmission_ratio.total_cmp(&1.0).is_eq() && a.encoder_offset.abs() <= 0.0
@@ -141,7 +139,7 @@ impl Compensation {
     ///
     /// # Panics
     ///
-    /// When the number of states is another, or when anything is of another number of joints.
+    /// When the number of states differs, or any length differs from the number of joints.
     pub fn fill(
         &self,
         ws: &mut CompensationWorkspace,

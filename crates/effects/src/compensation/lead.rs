@@ -9,10 +9,10 @@ use robot::Actuator;
 /// 2 mrad asks for 8 rad/s², as the motion itself does.
 pub(crate) const CROSSING_ACCELERATION: f64 = 1.0;
 
-/// Time between the states that differences are taken of (s).
+/// Time between the states of the differences (s).
 pub(crate) const SPACING_S: f64 = 1e-3;
 
-/// Whether motor and link move as one.
+/// Whether motor and link move together.
 pub(crate) fn is_rigid(drive: &Actuator) -> bool {
     drive.elasticity.is_none() && drive.backlash <= 0.0
 }

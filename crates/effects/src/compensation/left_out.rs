@@ -16,11 +16,10 @@ const FIRST: [EffectKind; 9] = [
     EffectKind::TimeSkew,
 ];
 
-/// Described effects that a torque from one state leaves out, one sentence a joint: those that need the past, the
+/// Described effects that a torque from one state leaves out, one sentence a joint: effects that need the past, the
 /// motion of the other side of a transmission, or other times.
 ///
-/// Their share in the effort counts as if the robot did not describe them. A measured effort contains delay and lag
-/// already.
+/// Their share of the effort counts as if it were not described. A measured effort contains delay and lag already.
 pub fn omissions(robot: &Robot) -> Vec<String> {
     let sentence = |(name, drive): (&str, &Actuator)| {
         let keys = keys(drive).join(" and ");

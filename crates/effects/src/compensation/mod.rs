@@ -1,4 +1,4 @@
-//! What undoes the effects that a robot's description holds.
+//! Compensation of the effects in a robot's description.
 
 pub(crate) mod feedforward;
 pub(crate) mod lead;

@@ -1,4 +1,4 @@
-//! What undoes which effect, held to what [`Compensation`](crate::Compensation) asks for.
+//! How each effect is compensated, tested against [`Compensation`](crate::Compensation).
 
 #[cfg(test)]
 mod tests {

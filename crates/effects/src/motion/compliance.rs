@@ -22,7 +22,7 @@ pub(crate) struct Compliance {
 /// weight, and at the resonance it vanishes.
 const RESISTANCE: f64 = 0.2;
 
-/// Least pivot, for a load that falls with the twist as fast as the torque of the spring grows.
+/// Least pivot, for a load that falls with the twist as fast as the spring torque grows.
 const LEAST: f64 = 1e-6;
 
 impl Compliance {

@@ -1,12 +1,12 @@
 /// Longest stand between two movements that counts as a reversal (s).
 const BRIEF_S: f64 = 0.2;
 
-/// Direction of a motion with speeds `qd`, in [-1, 1]: the sign of the speed, and below `rest`
-/// what is known of it there.
+/// Direction of a motion with speeds `qd`, in [-1, 1]: the sign of the speed. Below `rest` it is estimated as
+/// follows.
 ///
-/// Over a stand of at most 0.2 s the direction changes linearly from the one before to the one after: noise hides the
-/// instant of the reversal, and friction is as large there as around it. In a longer stand, and in one at either end
-/// of the run, it is `qd / rest`: a joint at rest holds less than its friction.
+/// Over a stand of at most 0.2 s the direction changes linearly from its value before to its value after: noise hides
+/// the instant of the reversal, and friction is as large there as around it. In a longer stand, and in a stand at
+/// either end of the run, the direction is `qd / rest`: a joint at rest holds less than its full friction.
 pub(crate) fn direction(qd: impl Iterator<Item = f64>, rest: f64, period_s: f64) -> Vec<f64> {
     let mut direction: Vec<f64> = qd.map(|v| (v / rest).clamp(-1.0, 1.0)).collect();
     let mut moved = None;

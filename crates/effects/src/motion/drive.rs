@@ -10,7 +10,7 @@ use crate::motion::dry_friction::dry_friction;
 /// load - tau_rb + rotor_inertia qdd + viscous qd + dry friction(q, qd, direction, load) + ripple(q)
 /// ```
 ///
-/// Friction is that of a warm drive.
+/// The friction is that of a warm drive.
 pub fn drive_torque(drive: &Actuator, state: [f64; 3], direction: f64, tau_rb: f64) -> f64 {
     let spring = spring_torque(drive, state[0]) + drive.spring_hysteresis * direction;
     spring + motor_torque(drive, state, direction, tau_rb + spring, 1.0)

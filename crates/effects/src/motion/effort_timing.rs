@@ -35,7 +35,7 @@ impl EffortTiming {
     }
 }
 
-/// Whether the log has the torque itself, which contains delay and lag already.
+/// Whether the log has the measured torque, which contains delay and lag already.
 pub(crate) fn is_measured(drive: &Actuator) -> bool {
     matches!(drive.torque_source, TorqueSource::Measured | TorqueSource::Current)
 }

@@ -1,4 +1,4 @@
-//! What a cause needs of the signals: the motion of a run, and what the robot as described expects of it.
+//! The motion of a run, and the signals that the robot as described predicts along it.
 
 pub(crate) mod cable_loop;
 pub(crate) mod compliance;

@@ -87,8 +87,8 @@ impl RunMotion {
         Self::from_encoders(robot, frame, encoders, period_s)
     }
 
-    /// The same for runs in which some links have an encoder of their own. There the twist is the measured one, and
-    /// the elasticity and backlash of the robot are ignored.
+    /// The same for runs in which some links have an encoder of their own. The twist is then the measured one, and
+    /// the robot's elasticity and backlash are ignored.
     ///
     /// # Panics
     ///
@@ -140,7 +140,7 @@ impl RunMotion {
     }
 
     /// Samples in which joint `j` stands for longer than 0.2 s or at either end of the run, by the reported speed.
-    /// Its dry friction may have any value up to the level there, so the effort tells nothing of it.
+    /// Its dry friction may then have any value up to the level, so the effort says nothing of it.
     pub fn stands(&self, j: usize) -> Vec<bool> {
         stands(&self.qd_reported[j], self.rest_speed[j], self.period_s)
     }
@@ -156,7 +156,7 @@ impl RunMotion {
     }
 
     /// `[joint]`: the load per unit of the ten parameters of a link; empty where the joint does not carry it. It is
-    /// evaluated at each call: for all links together it would be the largest part of a motion in memory.
+    /// evaluated at each call, because stored for all links it would dominate the memory of a motion.
     pub(crate) fn link_regressor(&self, link: usize) -> LinkRegressor {
         link_regressor(&self.robot, &self.link, link)
     }
@@ -211,8 +211,8 @@ impl RunMotion {
         }
     }
 
-    /// Speed and direction of a motor that turns with joint `j` and, by `ratio`, with another:
-    /// its direction as that of a joint, with the rest speeds added.
+    /// Speed and direction of a motor that turns with joint `j` and, by `ratio`, with joint `other`. The direction
+    /// follows the rule for a joint, with the two rest speeds added.
     pub(crate) fn motor(&self, j: usize, other: usize, ratio: f64) -> Vec<(f64, f64)> {
         let rest = self.rest_speed[j] + ratio.abs() * self.rest_speed[other];
         let of = |signal: &[Vec<f64>], t: usize| signal[j][t] + ratio * signal[other][t];
@@ -226,14 +226,14 @@ impl RunMotion {
         EffortTiming::of(&self.drives[j]).with_log_timing(effort, self.period_s)
     }
 
-    /// `d effort / dt` of joint `j`: what a second of delay, or of lag, adds to a command.
+    /// `d effort / dt` of joint `j`: the change of a command per second of delay or lag.
     pub(crate) fn torque_rate(&self, j: usize) -> EffectColumn {
         let gain = self.gain[j];
         let rate = differentiate(&self.torque[j], self.period_s.recip());
         at_joint(j, rate.into_iter().map(|r| gain * r))
     }
 
-    /// Effort per unit of the load of joint `j` in sample `t`: friction may grow with it.
+    /// Effort per unit of the load of joint `j` in sample `t`, including friction that grows with the load.
     fn load_gain(&self, j: usize, t: usize) -> f64 {
         let pressed = self.load[j][t].signum() * self.direction[j][t];
         self.gain[j] * (1.0 + self.drives[j].load_friction * pressed)

@@ -1,11 +1,11 @@
 use logs::{Prepared, PreparedJoint, PreparedRun};
 use robot::Robot;
 
-/// Magnitudes in a set of logs, from which the priors of the weights are made.
+/// Magnitudes in a set of logs that scale the priors of the weights.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scale {
-    /// RMS of the measured effort of each joint, or its described friction if that is larger (N·m or N). A described
-    /// friction that dwarfs all effort can so be removed whole.
+    /// RMS of the measured effort of each joint, or its described friction if that is larger (N·m or N). The prior
+    /// then allows a fit to remove a described friction far larger than the effort.
     pub effort: Vec<f64>,
     /// Largest speed of each joint (rad/s or m/s).
     pub speed: Vec<f64>,

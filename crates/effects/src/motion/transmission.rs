@@ -7,7 +7,7 @@ use crate::motion::encoders::{JointMotions, LinkMotion};
 use crate::motion::rigid_bodies::loads;
 use crate::motion::slopes::Slopes;
 
-/// The motion of the motors behind what their encoders report:
+/// The motion of the motors, corrected for errors of their encoders:
 /// `q = transmission_ratio (reported - encoder_offset)`.
 pub(crate) fn correct_reading(robot: &Robot, mut reading: JointMotions) -> JointMotions {
     for (i, link) in robot.links().iter().enumerate() {
@@ -18,14 +18,14 @@ pub(crate) fn correct_reading(robot: &Robot, mut reading: JointMotions) -> Joint
     reading
 }
 
-/// Motion of the motors and of the links, of which one was measured.
+/// Motion of the motors and of the links, one of which was measured.
 ///
 /// ```text
 /// theta - q = load / elasticity + x,  |x| <= backlash / 2
 /// ```
 ///
-/// `load` is what the links need along their own motion. The play `x` is worked out under the load that the links
-/// would need along the measured motion.
+/// `load` is what the links need along their own motion. The play `x` is computed under the load that the links would
+/// need along the measured motion.
 #[derive(Debug)]
 pub(crate) struct Deflection {
     pub motor: JointMotions,
@@ -206,9 +206,9 @@ impl LoadAlong<'_> {
 /// Free play between a motor and its link.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Gap {
-    /// From one end to the other (rad or m).
+    /// Width from one end to the other (rad or m).
     pub width: f64,
-    /// Of the spring in line with it (rad/(N m) or m/N).
+    /// Compliance of the spring in series with the gap (rad/(N m) or m/N).
     pub compliance: f64,
 }
 

@@ -1,56 +1,56 @@
 use serde::{Deserialize, Serialize};
 
-/// What is claimed of some numbers, and whether they bear it out.
+/// A claim about some numbers, and whether the numbers support it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Claim {
-    /// What is claimed, without a full stop.
+    /// The claim in words, without a full stop.
     pub statement: String,
-    /// In how many of the cases it has to be so.
+    /// In how many of the cases the claim must hold.
     pub scope: Scope,
-    /// Whether it is.
+    /// Whether the claim holds.
     pub verdict: ClaimVerdict,
-    /// What was looked at.
+    /// The numbers that the claim is judged by.
     pub cases: Vec<ClaimCase>,
 }
 
-/// In how many cases a claim has to be so.
+/// In how many cases a claim must hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Scope {
-    /// In every one.
+    /// In every case.
     Every,
-    /// In more than half of them.
+    /// In more than half of the cases.
     Most,
 }
 
-/// Whether a claim is borne out.
+/// Whether a claim holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ClaimVerdict {
-    /// It is.
+    /// The claim holds.
     Holds,
-    /// It is not.
+    /// The claim does not hold.
     DoesNotHold,
-    /// There are no numbers to judge it by.
+    /// There are no numbers to judge the claim by.
     NotJudged,
 }
 
-/// One number and the limit that a claim sets it:
+/// One number and the limit that a claim sets for it:
 ///
 /// ```text
 /// value <= limit
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ClaimCase {
-    /// What the number is of, such as a model.
+    /// What the number describes, such as a model.
     pub subject: String,
-    /// Where, such as at a joint.
+    /// Where the number was taken, such as at a joint.
     pub place: String,
-    /// The number; none where there is none, which bears out nothing.
+    /// The number. A case without one fails.
     pub value: Option<f64>,
-    /// The most that it may be; none likewise.
+    /// The largest value that the claim allows. A case without one fails.
     pub limit: Option<f64>,
-    /// What it is compared with, if it is with another number, and that number.
+    /// Name and value of the number that the limit is derived from, if there is one.
     pub other: Option<(String, f64)>,
 }
 
@@ -70,14 +70,14 @@ impl Claim {
         Self { statement: statement.into(), scope, verdict, cases }
     }
 
-    /// The cases in which it is not so, the worst first.
+    /// The cases that fail, the worst first.
     pub fn failing(&self) -> Vec<&ClaimCase> {
         let mut failing: Vec<&ClaimCase> = self.cases.iter().filter(|case| !case.holds()).collect();
         failing.sort_by(|a, b| b.strain().total_cmp(&a.strain()));
         failing
     }
 
-    /// The case in which it is so by the least.
+    /// Of the cases that hold, the one nearest to its limit.
     pub fn narrowest(&self) -> Option<&ClaimCase> {
         let held = self.cases.iter().filter(|case| case.holds());
         held.max_by(|a, b| a.strain().total_cmp(&b.strain()))
@@ -85,7 +85,7 @@ impl Claim {
 }
 
 impl ClaimCase {
-    /// A number that may be as large as `limit`.
+    /// A case that holds up to `limit`.
     pub fn within(subject: &str, place: &str, value: Option<f64>, limit: f64) -> Self {
         Self {
             subject: subject.to_owned(),
@@ -96,7 +96,7 @@ impl ClaimCase {
         }
     }
 
-    /// A number that may be as large as another times `factor` and `margin` more.
+    /// A case that holds up to `factor` times another number plus `margin`.
     pub fn beside(
         (subject, value): (&str, Option<f64>),
         (other, other_value): (&str, Option<f64>),
@@ -117,13 +117,13 @@ impl ClaimCase {
         matches!((self.value, self.limit), (Some(value), Some(limit)) if value <= limit)
     }
 
-    /// The number as a multiple of the one that it is compared with.
+    /// The number as a multiple of the number that it is compared with.
     pub fn times(&self) -> Option<f64> {
         let (_, other) = self.other.as_ref()?;
         Some(self.value? / other)
     }
 
-    /// The number as a share of its limit; without end where there is none.
+    /// The number as a share of its limit; infinite where either is missing.
     fn strain(&self) -> f64 {
         match (self.value, self.limit) {
             (Some(value), Some(limit)) => value / limit,

@@ -1,4 +1,4 @@
-//! What a paper claims, judged by numbers.
+//! The claims of a paper, judged by numbers.
 
 pub(crate) mod claim;
 pub(crate) mod paper_models;

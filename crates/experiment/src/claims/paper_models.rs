@@ -1,6 +1,6 @@
 use learner::ModelKind;
 
-/// The models of figure 2 of Nguyen-Tuong & Peters 2010, and the robot with its named effects beside them.
+/// The models of figure 2 of Nguyen-Tuong & Peters 2010, and beside them the robot with its named effects.
 pub const PAPER_MODELS: [ModelKind; 6] = [
     ModelKind::Rbd,
     ModelKind::Gp,
@@ -10,10 +10,10 @@ pub const PAPER_MODELS: [ModelKind; 6] = [
     ModelKind::Named,
 ];
 
-/// The semiparametric models of the paper: rigid bodies, and a process that learns what they leave.
+/// The semiparametric models of the paper: rigid bodies, and a Gaussian process for the torque that they leave.
 pub const SEMIPARAMETRIC: [ModelKind; 3] =
     [ModelKind::GpRbd, ModelKind::GpRbdPrior, ModelKind::RbdKernel];
 
-/// Every model of the paper that is or has a Gaussian process.
+/// The models of the paper that are Gaussian processes or include one.
 pub const PROCESSES: [ModelKind; 4] =
     [ModelKind::Gp, ModelKind::GpRbd, ModelKind::GpRbdPrior, ModelKind::RbdKernel];

@@ -7,8 +7,8 @@ use crate::tracking::tracked_error::TrackedError;
 /// Joints of the elbow and the wrist of a WAM, where the paper sees the largest gain.
 const ELBOW_AND_WRIST: [usize; 3] = [3, 4, 5];
 
-/// What Nguyen-Tuong & Peters 2010 say about figures 3 and 4, judged by the errors of the runs, and
-/// what is said of the named effects; nothing where not all of the paper's models were fed forward.
+/// The claims of Nguyen-Tuong & Peters 2010 about figures 3 and 4, and the claims about the named effects, judged by
+/// the errors of the runs. Empty unless all models of the paper were fed forward.
 pub fn tracking_claims(errors: &[TrackedError], joints: &[String]) -> Vec<Claim> {
     let find = |kind: ModelKind| errors.iter().find(|error| error.model == kind.name());
     let paper = [ModelKind::Rbd].into_iter().chain(PROCESSES);

@@ -14,7 +14,7 @@ use crate::progress::Progress;
 use crate::scenario::tracking_scenario::TrackingScenario;
 use crate::scenario::tracking_spec::LearnSpec;
 
-/// The models that a scenario feeds forward, ready to be asked.
+/// The models that a scenario feeds forward, ready to predict.
 #[derive(Debug, Clone)]
 pub struct Learned {
     models: BTreeMap<&'static str, Model>,
@@ -34,7 +34,7 @@ impl Learned {
         }
     }
 
-    /// Writes every model into a folder that is there, as `<kind>.parquet`.
+    /// Writes every model into an existing folder, as `<kind>.parquet`.
     ///
     /// # Errors
     ///
@@ -79,12 +79,12 @@ impl Learned {
 
     /// Learns the models that a scenario feeds forward from the logs of its arm.
     ///
-    /// Without `named`, the robot extended by the arm's effects, those are found in the logs by a
-    /// diagnosis that has nothing but the logs.
+    /// `named` is the robot extended by the arm's effects. Without it, a diagnosis finds the effects in the logs
+    /// alone.
     ///
     /// # Errors
     ///
-    /// [`ExperimentError::NothingToLearnFrom`], and what diagnosis and learner refuse.
+    /// [`ExperimentError::NothingToLearnFrom`], and the errors of diagnosis and learner.
     pub fn learn(
         scenario: &TrackingScenario,
         logs: &[Run],
@@ -101,11 +101,11 @@ impl Learned {
         Self::of(&lesson, logs, named, progress)
     }
 
-    /// Learns from the logs of an arm what a lesson says, `named` as in [`learn`](Self::learn).
+    /// Learns from the logs of an arm as a lesson says, with `named` as in [`learn`](Self::learn).
     ///
     /// # Errors
     ///
-    /// What the learner refuses.
+    /// The errors of the learner.
     pub fn of(
         lesson: &Lesson,
         logs: &[Run],
@@ -152,17 +152,17 @@ impl Learned {
     }
 }
 
-/// What is learned, and from what.
+/// The models to learn, and the data to learn them from.
 pub struct Lesson<'a> {
     /// The robot as described.
     pub loaded: &'a Loaded,
-    /// The scenario of the arm, whose runs there are.
+    /// The scenario of the arm, which has the runs.
     pub plant_file: &'a Path,
-    /// The runs and how much of them.
+    /// The runs, and the number of samples to use.
     pub learn: &'a LearnSpec,
     /// The models.
     pub kinds: &'a [ModelKind],
-    /// What the rigid bodies are made of.
+    /// The parameters of the rigid bodies.
     pub columns: ColumnSet,
 }
 
@@ -171,7 +171,7 @@ impl Lesson<'_> {
         &self.loaded.robot
     }
 
-    /// Logs behind the low pass at `cutoff_hz`, or at the cut-off that their data suggest.
+    /// The logs after the low-pass at `cutoff_hz`, or at the cut-off that their data suggest.
     ///
     /// # Errors
     ///
@@ -210,7 +210,7 @@ fn rigid_bodies(
     Ok(regression.fit(None)?)
 }
 
-/// The robot extended by what a diagnosis names in the logs.
+/// The robot extended by the effects that a diagnosis finds in the logs.
 fn extend_by_diagnosis(
     lesson: &Lesson,
     logs: &[Run],
@@ -222,7 +222,7 @@ fn extend_by_diagnosis(
     Ok(diagnosis::diagnose(lesson.robot(), logs, &settings, &diagnosis::Silent)?.extended)
 }
 
-/// The samples of the logs, all through one filter.
+/// The samples of the logs, all filtered alike.
 struct Data {
     train: Samples,
     regression: Samples,
@@ -246,13 +246,13 @@ impl Data {
     }
 }
 
-/// The prepared runs that are logs of these names or parts of them.
+/// The prepared runs that are logs with these names, or parts of such logs.
 pub(crate) fn select_runs(prepared: &Prepared, names: &[String]) -> Prepared {
     let is_meant = |run: &&PreparedRun| names.iter().any(|name| is_part_of(&run.name, name));
     prepared.with_runs(prepared.runs.iter().filter(is_meant).cloned().collect())
 }
 
-/// Whether a prepared run is a log or, where it was split at gaps, a part of it.
+/// Whether a prepared run is a log, or a part of a log that was split at gaps.
 fn is_part_of(prepared: &str, log: &str) -> bool {
     prepared.strip_prefix(log).is_some_and(|rest| rest.is_empty() || rest.starts_with(" part "))
 }

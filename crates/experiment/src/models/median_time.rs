@@ -1,11 +1,10 @@
 use std::time::{Duration, Instant};
 
-/// Calls that are timed one by one, at least and at most, and time that more than the least may
-/// take.
+/// Least and largest number of calls that are timed, and the time after which calls beyond the least end.
 const CALLS: [usize; 2] = [101, 2001];
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// Median time of a call (s); what is called is told the number of the call.
+/// Median time of a call (s). `call` receives the index of the call.
 pub fn median_time_s(mut call: impl FnMut(usize)) -> f64 {
     let [least, most] = CALLS;
     // The first calls fill the caches.

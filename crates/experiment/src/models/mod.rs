@@ -1,4 +1,4 @@
-//! What is learned from logs: models of the torque, and a process of what a diagnosis leaves.
+//! Models learned from logs: of the torque, and of the residual of a diagnosis.
 
 pub(crate) mod learned;
 pub(crate) mod median_time;

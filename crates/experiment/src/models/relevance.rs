@@ -1,21 +1,21 @@
 use learner::{Samples, TrainedModel};
 use robot::Robot;
 
-/// Signals named for one joint.
+/// Number of signals named for one joint.
 const LISTED: usize = 3;
 
-/// A signal that a Gaussian process bends with.
+/// A signal on which a Gaussian process depends.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Relevance {
     /// The signal, such as `position of elbow`.
     pub signal: String,
-    /// Length scale of the process over the range of the signal: the shorter, the more it
-    /// bends; below one.
+    /// Length scale of the process over the range of the signal, below one. The shorter it is, the more the process
+    /// varies with the signal.
     pub share_of_range: f64,
 }
 
-/// The signals whose length scales in the process of joint `joint` are shortest beside their
-/// ranges in `samples`, and shorter than those.
+/// The signals on which the process of joint `joint` depends most: those whose length scales are shortest relative to
+/// their ranges in `samples`, and shorter than these.
 pub(crate) fn relevance(
     fitted: &TrainedModel,
     joint: usize,
@@ -40,7 +40,7 @@ pub(crate) fn relevance(
     all.into_iter().map(relevance).collect()
 }
 
-/// Input `d` of a process: positions, then velocities, then accelerations.
+/// Name of input `d` of a process: positions, then velocities, then accelerations.
 fn words(d: usize, robot: &Robot) -> String {
     let joints = robot.joint_count();
     let signal = ["position", "velocity", "acceleration"][d / joints];

@@ -11,62 +11,62 @@ use crate::error::ExperimentError;
 use crate::models::relevance::{Relevance, relevance};
 use crate::progress::Progress;
 
-/// Order of the low-pass of what is left, as in the diagnosis.
+/// Order of the low-pass of the residual, as in the diagnosis.
 const ORDER: usize = 4;
 
-/// Samples that the processes learn from: of a recorded LWR4, 500 predict as much as 1000.
+/// Number of samples for the processes: on a recorded LWR4, 500 predict as much as 1000.
 const POINTS: usize = 600;
 
-/// Least share of what is left that a process must predict to be used.
+/// Least share of the residual that a process must predict to be used.
 const LEAST_SHARE: f64 = 0.05;
 
-/// A Gaussian process of what the findings of a diagnosis leave.
+/// A Gaussian process for the residual torque of a diagnosis.
 #[derive(Debug, Clone)]
 pub struct Residual {
-    /// The extended robot, and the process about it at the joints where that pays.
+    /// The extended robot, with the process added at the joints where it helps.
     pub model: Model,
     /// One entry a joint.
     pub joints: Vec<ResidualJoint>,
-    /// How many parts of the logs were held out in turn.
+    /// Number of parts of the logs that were held out in turn.
     pub parts: usize,
     /// Whether Ctrl-C ended a search.
     pub is_cut_short: bool,
 }
 
-/// What the process does for one joint, on data that took no part.
+/// Effect of the process at one joint, on held-out data.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ResidualJoint {
     /// RMS of measured torque minus that of the extended robot, low-passed (N m or N).
     pub extended_rms: f64,
-    /// The same with the process.
+    /// The same with the process added.
     pub with_process_rms: f64,
-    /// Number of held-out parts in which the process makes it less.
+    /// Number of held-out parts in which the process lowers the error.
     pub better_in: usize,
-    /// Whether the process is part of the model here.
+    /// Whether the model includes the process at this joint.
     pub is_used: bool,
-    /// What the process bends with, the most first; empty where it is not used.
+    /// Signals on which the process depends, the strongest first; empty where it is not used.
     pub relevance: Vec<Relevance>,
 }
 
 impl ResidualJoint {
-    /// Share of the power of what the extended robot leaves that the process predicts; negative
-    /// where it makes things worse.
+    /// Share of the power of the extended robot's residual that the process predicts; negative where it raises the
+    /// error.
     pub fn share(&self) -> f64 {
         1.0 - (self.with_process_rms / self.extended_rms).powi(2)
     }
 }
 
-/// Learns a Gaussian process of the torque that the extended robot of a diagnosis leaves,
+/// Learns a Gaussian process for the residual torque of the extended robot of a diagnosis,
 ///
 /// ```text
 /// tau = extended robot(q, qd, qdd) + f(q, qd, qdd) + noise,   f ~ GP
 /// ```
 ///
-/// and keeps it at the joints where it pays: on the parts that the diagnosis held out, with the
-/// extended robot found and the process learned on the rest, it predicts at least 5 % of what is
-/// left, and something in more than half of the parts. Elsewhere the model is the extended robot.
+/// and keeps it at the joints where it helps. The test is on the parts that the diagnosis held out, with extended
+/// robot and process found on the rest. There the process must predict at least 5 % of the residual, and some of it
+/// in more than half of the parts. At other joints the model is the extended robot.
 ///
-/// A diagnosis without [`DiagnosisRun::held_out`] shows no joint where it pays.
+/// Without [`DiagnosisRun::held_out`] the process is used at no joint.
 ///
 /// # Errors
 ///
@@ -106,7 +106,7 @@ pub fn learn_residual(
     Ok(Residual { model: fitted.model, joints, parts, is_cut_short: progress.is_stopped() })
 }
 
-/// The logs and what they are of.
+/// The logs and the robot that they belong to.
 struct Logs<'a> {
     robot: &'a Robot,
     prepared: &'a Prepared,
@@ -115,7 +115,7 @@ struct Logs<'a> {
 }
 
 impl Logs<'_> {
-    /// The process about an extended robot.
+    /// The process added to an extended robot.
     fn fit(
         &self,
         extended: &Robot,
@@ -127,8 +127,8 @@ impl Logs<'_> {
         Ok(training.with_named(extended).fit(ModelKind::NamedGp)?)
     }
 
-    /// Residuals on a held-out part: of the extended robot, and of the robot with a process that
-    /// was learned on the other parts.
+    /// Residuals on a held-out part: of the extended robot, and of the robot with a process that was learned on the
+    /// other parts.
     fn residuals_on(
         &self,
         part: &HeldOutPart,
@@ -146,7 +146,7 @@ impl Logs<'_> {
         Model::new(ModelKind::Named, self.robot, Mean::Robot(Box::new(torque)), noise)
     }
 
-    /// Mean square of what an extended robot leaves of every joint's torque.
+    /// Mean square of the residual of an extended robot at every joint.
     fn mean_squares(&self, extended: &Robot, samples: &Samples) -> Vec<f64> {
         let (expected, joints) =
             (self.model_of(extended).torque(samples), self.robot.joint_count());
@@ -158,7 +158,7 @@ impl Logs<'_> {
         sums.iter().map(|sum| sum / samples.len() as f64).collect()
     }
 
-    /// Residual of a model in some stretches, low-passed, one row a joint.
+    /// Residual of a model over some stretches, low-passed, one row a joint.
     fn residual_of(&self, model: &Model, spans: &[Span]) -> Result<Vec<Vec<f64>>, LogError> {
         let joints = self.robot.joint_count();
         let mut all = vec![Vec::new(); joints];
@@ -178,7 +178,7 @@ impl Logs<'_> {
         Ok(all)
     }
 
-    /// The samples in some stretches.
+    /// The samples of some stretches.
     fn samples(&self, spans: &[Span]) -> Samples {
         let cut = |span: &Span| {
             let run = &self.prepared.runs[span.run];
@@ -188,7 +188,7 @@ impl Logs<'_> {
     }
 }
 
-/// The samples of a run in a stretch of it.
+/// The samples of a run within one stretch.
 fn samples_in(run: &PreparedRun, span: &Span) -> std::ops::Range<usize> {
     let [from, to] = span.time_s.map(|edge| run.time.partition_point(|t| *t < edge));
     from..to
@@ -204,7 +204,7 @@ struct Errors {
 }
 
 impl Errors {
-    /// Adds what is left in one part, without and with the process.
+    /// Adds the residuals of one part, without and with the process.
     fn add(&mut self, extended: &[f64], with_process: &[f64]) {
         let power = |left: &[f64]| left.iter().map(|x| x * x).sum::<f64>();
         let (before, after) = (power(extended), power(with_process));

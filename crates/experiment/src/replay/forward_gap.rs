@@ -7,53 +7,52 @@ use simulator::{ForwardReplay, SimulatorError, Windows, replay_torque};
 
 use crate::replay::replayed::{STEP_S, first};
 
-/// How far two simulations drift from what was measured, for some lengths of time.
+/// Drift of two simulations from the measurement, after several lengths of time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ForwardGap {
     /// One entry a length of time, the shortest first.
     pub windows: Vec<ForwardWindow>,
 }
 
-/// How far two simulations drift in a length of time.
+/// Drift of two simulations after one length of time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ForwardWindow {
-    /// Time from a measured state on for which the measured torque moves the simulation (s).
+    /// Length of a window (s): the simulation starts from a measured state and is driven by the measured torque.
     pub window_s: f64,
     /// Number of such windows, without overlap.
     pub windows: usize,
-    /// Of the robot as described.
+    /// Drift of the robot as described.
     pub nominal: Drift,
-    /// Of the extended robot.
+    /// Drift of the extended robot.
     pub extended: Drift,
 }
 
-/// How far a simulation is off in windows, at their ends and on the way.
+/// Drift of a simulation over windows, at their ends and on the way.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Drift {
-    /// RMS of simulated minus measured position, by joint (rad or m); none where a joint ran away
-    /// in every window.
+    /// RMS of simulated minus measured position, by joint (rad or m); `None` where a joint ran away in every window.
     pub rms: Option<Vec<f64>>,
     /// RMS of the distance between the simulated and the measured origin of the last link (m).
     pub tip_rms_m: Option<f64>,
-    /// The same at twenty equal steps through the windows, the last at their ends (m).
+    /// The same at twenty equal steps through the windows, the last step at their ends (m).
     #[serde(default)]
     pub tip_course_m: Vec<f64>,
-    /// Windows in which a joint ran away, which count in none of these.
+    /// Number of windows in which a joint ran away. The values above leave these out.
     pub runaways: usize,
-    /// Why the robot could not be simulated, where it could not.
+    /// Why the robot could not be simulated, if it could not.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub trouble: Option<String>,
 }
 
-/// Rolls the robot as described and the extended one forward under the measured torques, from the
-/// measured states, for 50, 200 and 1000 ms.
+/// Simulates the robot as described and the extended one under the measured torques, from measured states on, for 50,
+/// 200 and 1000 ms.
 ///
 /// ```text
 /// (q, qd)(t_start) = measured,   tau(t) = measured,   drift = q_simulated - q_measured
 /// ```
 ///
-/// A length of time that does not fit into a record has no windows of it. The engine takes steps of
-/// 1 ms, shorter ones down to 0.1 ms where a spring of a drive needs them.
+/// A record shorter than a length of time has no windows of it. The simulation takes steps of 1 ms, or shorter ones
+/// down to 0.1 ms where the spring of a drive needs them.
 pub fn forward_gap(
     robots: [&Robot; 2],
     records: &[PreparedRun],
@@ -69,12 +68,12 @@ pub fn forward_gap(
     ForwardGap { windows: windows.into() }
 }
 
-/// [`forward_gap`] on the logs of a diagnosis: on half a minute of all together, of each the same
-/// time from its beginning. The extended robot was found in them.
+/// [`forward_gap`] on the logs of a diagnosis, in which the extended robot was found. Half a minute of all logs
+/// together is simulated, the same time from the beginning of each.
 ///
 /// # Errors
 ///
-/// [`LogError`] for runs that were not diagnosed with this cut-off (Hz).
+/// [`LogError`] when the runs were diagnosed with another cut-off (Hz).
 pub fn forward_gap_of_logs(
     robots: [&Robot; 2],
     runs: &[Run],
@@ -88,31 +87,31 @@ pub fn forward_gap_of_logs(
     Ok(forward_gap(robots, &records, progress))
 }
 
-/// Time of all logs of a diagnosis together that is simulated for each length of time (s).
+/// Total time of all logs of a diagnosis that is simulated for each length of time (s).
 const TOTAL_S: f64 = 30.0;
 
-/// Shortest step of the engine (s): that of `plumbline replay`.
+/// Shortest step of the simulation (s): that of `plumbline replay`.
 const SHORTEST_STEP_S: f64 = 1e-4;
 
-/// Lengths of time for which simulations are rolled forward (s).
+/// Lengths of time that are simulated from a measured state (s).
 const WINDOWS_S: [f64; 3] = [0.05, 0.2, 1.0];
 
-/// Steps of the course of a drift.
+/// Number of steps at which the drift within a window is taken.
 const STEPS: usize = 20;
 
-/// Squares summed over the windows of several records.
+/// Sums of squares over the windows of several records.
 #[derive(Default)]
 struct Sum {
     windows: usize,
     runaways: usize,
     joints: Vec<f64>,
-    /// Of the tip, at every step through the windows.
+    /// Sum for the tip, at every step through the windows.
     tip: [f64; STEPS],
     trouble: Option<String>,
 }
 
 impl Sum {
-    /// Over all windows of all records, as far as they can be simulated.
+    /// The sums over all windows of all records that can be simulated.
     fn of(
         robot: &Robot,
         records: &[PreparedRun],
@@ -158,7 +157,7 @@ impl Sum {
     }
 }
 
-/// A record rolled forward, in steps that the springs of the drives bear.
+/// The simulation of a record, in steps that are short enough for the springs of the drives.
 fn replay(
     robot: &Robot,
     record: &PreparedRun,

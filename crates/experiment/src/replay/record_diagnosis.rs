@@ -17,24 +17,24 @@ const RATE_HZ: f64 = 100.0;
 /// Time between the end of a run and the beginning of the next (s).
 const PAUSE_S: f64 = 1.0;
 
-/// Rows that are handed over at a time: a second or a little more.
+/// Number of rows that are handed over at a time: a second or a little more.
 const BLOCK: usize = 110;
 
-/// A diagnosis to be looked at.
+/// A diagnosis to be recorded.
 #[derive(Debug, Clone, Copy)]
 pub struct DiagnosedLogs<'a> {
-    /// The robot as it was given, with its shapes.
+    /// The robot as described, with its shapes.
     pub loaded: &'a Loaded,
     /// The logs that were diagnosed.
     pub runs: &'a [Run],
-    /// What was found in them.
+    /// The outcome of the diagnosis.
     pub outcome: &'a DiagnosisRun,
-    /// What was found, in Markdown.
+    /// The findings in Markdown.
     pub verdict: &'a str,
 }
 
-/// Records what a diagnosis saw: the measured arm beside the simulated one, torques and
-/// residuals, the runs one after the other on one timeline.
+/// Records a diagnosis: the measured arm beside the simulated one, torques and residuals. The runs follow one another
+/// on one timeline.
 ///
 /// ```text
 /// measured ---> arm, q, qd, tau                                  solid, white
@@ -42,19 +42,17 @@ pub struct DiagnosedLogs<'a> {
 /// extended ---> arm, q under the measured tau; tau; tau - tau_extended    blue
 /// ```
 ///
-/// A model starts from the measured state again and again, after 1, 0.5, 0.2 or 0.1 s: the
-/// longest time in which the nominal one stays near what was measured. The plots open at the joint of the
-/// finding that explains most. At most two minutes of
-/// all runs are simulated, of each run the same time from its beginning. What cannot be
-/// simulated is an event of the recording, no error.
+/// A simulation starts anew from the measured state after 1, 0.5, 0.2 or 0.1 s: the longest time for which the
+/// nominal model stays near the measurement. The plots open at the joint of the finding that explains most. At most
+/// two minutes of all runs are simulated, the same time from the beginning of each. A run that cannot be simulated
+/// becomes an event of the recording.
 ///
-/// Rows are samples of the log, at most 100 a second. Torques are those of the diagnosis,
-/// with straight lines between the samples of its regression.
+/// Rows are samples of the log, at most 100 a second. Torques are those of the diagnosis, interpolated linearly
+/// between the samples of its regression.
 ///
 /// # Errors
 ///
-/// [`ExperimentError::Log`] for runs that were not diagnosed with this outcome, and
-/// [`ExperimentError::Recording`].
+/// [`ExperimentError::Log`] when the runs were not diagnosed with this outcome, and [`ExperimentError::Recording`].
 pub fn record_diagnosis(
     path: &Path,
     diagnosed: &DiagnosedLogs<'_>,
@@ -111,7 +109,7 @@ fn scene<'a>(title: &'a str, loaded: &'a Loaded) -> Scene<'a> {
     }
 }
 
-/// What is shown, and how it was made.
+/// The legend: the signals, and how they were made.
 fn legend(outcome: &DiagnosisRun, replayed: &Replayed) -> String {
     let data = &outcome.diagnosis.data;
     format!(
@@ -130,7 +128,7 @@ fn legend(outcome: &DiagnosisRun, replayed: &Replayed) -> String {
     )
 }
 
-/// Findings and warnings, and the errors as bars.
+/// Records findings and warnings, and the errors as bars.
 fn record_findings(recorder: &mut Recorder, outcome: &DiagnosisRun) -> Result<(), ExperimentError> {
     let diagnosis = &outcome.diagnosis;
     for finding in &diagnosis.findings {
@@ -154,7 +152,7 @@ fn record_findings(recorder: &mut Recorder, outcome: &DiagnosisRun) -> Result<()
     Ok(recorder.bars("RMS error (N·m or N)", &bars)?)
 }
 
-/// The beginning of a run, with its name and first time (s), and what could not be simulated.
+/// Records the beginning of a run, with its name and first time (s), and the parts that could not be simulated.
 fn events(
     recorder: &mut Recorder,
     start_s: f64,
@@ -180,7 +178,7 @@ struct Shown<'a> {
 }
 
 impl Shown<'_> {
-    /// The numbers of a joint at a sample, in the order of the scene's signals.
+    /// The signals of a joint at one sample, in the order of the scene.
     fn signals(&self, sample: usize, j: usize) -> [f64; 9] {
         let (record, traces) = (&self.record.joints[j], &self.traces.joints[j]);
         let ghost = |g: &[f64]| g[sample * self.record.joints.len() + j];
@@ -203,8 +201,7 @@ impl Shown<'_> {
     }
 }
 
-/// Writes a run from a time of the recording on (s), and a row of gaps behind it; returns the
-/// time at which it ends (s).
+/// Writes a run that begins at `start_s` of the recording (s), followed by a row of gaps. Returns its end (s).
 fn write(recorder: &mut Recorder, start_s: f64, shown: &Shown<'_>) -> Result<f64, ExperimentError> {
     let record = shown.record;
     let stride = (record.rate_hz / RATE_HZ).ceil().max(1.0) as usize;
@@ -230,7 +227,7 @@ fn write(recorder: &mut Recorder, start_s: f64, shown: &Shown<'_>) -> Result<f64
     Ok(end_s)
 }
 
-/// The straight line between two samples; NaN outside of them.
+/// Linear interpolation between two samples; NaN outside of them.
 fn interpolate(time: &[f64], values: &[f64], time_s: f64) -> f64 {
     let next = time.partition_point(|t| *t < time_s);
     let at = |i: usize| time.get(i).copied().zip(values.get(i).copied());

@@ -3,24 +3,24 @@ use logs::PreparedRun;
 use robot::Robot;
 use simulator::{ForwardReplay, SimulatorError, Windows, replay_torque};
 
-/// Times for which the models are rolled forward from a measured state (s), the longest first.
+/// Lengths of time for which the models are simulated from a measured state (s), the longest first.
 const WINDOWS_S: [f64; 4] = [1.0, 0.5, 0.2, 0.1];
 
-/// Drift of the middle joint of the nominal model at the end of a window (rad or m) above which
-/// a shorter one is taken: a simulation that spins shows no error any more.
+/// Median drift over the joints of the nominal model at the end of a window (rad or m) above which a shorter window
+/// is taken: once a simulation spins, its drift shows no error.
 const LARGEST_DRIFT: f64 = 0.5;
 
-/// Longest step of the engine (s): ten times that of `plumbline replay`.
+/// Longest step of the simulation (s): ten times that of `plumbline replay`.
 pub(crate) const STEP_S: f64 = 1e-3;
 
-/// Time of all runs together that is simulated (s).
+/// Total time of all runs that is simulated (s).
 const TOTAL_S: f64 = 120.0;
 
-/// What both models make of the measured torques.
+/// Both models, simulated under the measured torques.
 pub(crate) struct Replayed {
     /// Time after which a simulation starts anew from the measured state (s).
     pub window_s: f64,
-    /// Time from its start that is simulated of each run (s).
+    /// Simulated time of each run, from its start (s).
     pub simulated_s: f64,
     /// The nominal model, one entry a run.
     pub nominal: Vec<Simulated>,
@@ -28,17 +28,16 @@ pub(crate) struct Replayed {
     pub extended: Vec<Simulated>,
 }
 
-/// One run of one model.
+/// One run, simulated with one model.
 pub(crate) struct Simulated {
-    /// Row-major positions of all joints at all samples of the record (rad or m), NaN where
-    /// there is no simulation.
+    /// Positions of all joints at all samples of the record, row-major (rad or m); NaN where nothing was simulated.
     pub q: Vec<f64>,
-    /// What kept it from being simulated, whole or in parts.
+    /// Why parts of the run, or all of it, could not be simulated.
     pub trouble: Option<String>,
 }
 
 impl Replayed {
-    /// Rolls both models forward under the measured torques.
+    /// Simulates both models under the measured torques.
     pub fn of(
         robots: [&Robot; 2],
         records: &[PreparedRun],
@@ -97,8 +96,7 @@ impl Simulated {
     }
 }
 
-/// Median over joints and runs of the drift at the ends of windows (rad or m); none where
-/// nothing was simulated.
+/// Median over joints and runs of the drift at the ends of windows (rad or m); `None` where nothing was simulated.
 fn middle_drift(replays: &[Result<ForwardReplay, SimulatorError>]) -> Option<f64> {
     let of_run = |replay: &ForwardReplay| {
         let joints = replay.motion.joints.len();

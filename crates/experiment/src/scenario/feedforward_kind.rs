@@ -13,7 +13,7 @@ pub enum FeedforwardKind {
     None,
     /// The torque that holds the robot as described against gravity.
     Gravity,
-    /// The torque of a model; of [`ModelKind::Named`], with what its drives ask for.
+    /// The torque of a model. For [`ModelKind::Named`] it includes the compensation of the drives.
     Model(ModelKind),
 }
 
@@ -32,7 +32,7 @@ impl FeedforwardKind {
         }
     }
 
-    /// What it is, in words.
+    /// The kind in words.
     pub fn words(self) -> &'static str {
         match self {
             Self::None => "feedback alone",

@@ -1,4 +1,4 @@
-//! What a tracking scenario says: the arm, the motion, the gains and what is fed forward.
+//! The content of a tracking scenario: the arm, the motion, the gains and the feedforward.
 
 pub(crate) mod feedforward_kind;
 pub(crate) mod tracking_scenario;

@@ -11,7 +11,7 @@ use crate::scenario::tracking_spec::{
     ErrorRateSpec, LearnSpec, PredictionSpec, PredictionTimeSpec, SweepSpec, TrackingSpec,
 };
 
-/// A tracking scenario whose every value can be meant: ready to run.
+/// A tracking scenario whose values are checked: ready to run.
 #[derive(Debug, Clone)]
 pub struct TrackingScenario {
     spec: TrackingSpec,
@@ -29,8 +29,7 @@ impl TrackingScenario {
     ///
     /// # Errors
     ///
-    /// [`ExperimentError::Document`], at the value at fault, and what the plant's scenario is
-    /// refused for.
+    /// [`ExperimentError::Document`], at the value at fault, and the errors of the plant's scenario.
     pub fn from_document(document: &Document) -> Result<Self, ExperimentError> {
         let (plant, plant_file) = plant_of(document)?;
         Self::new(document, Scenario::from_document(&plant)?, plant_file)
@@ -56,13 +55,13 @@ impl TrackingScenario {
         Ok(Self { spec, plant, plant_file, loaded, motion, gains, swept_gains, resolved })
     }
 
-    /// The same of an arm that differs in its effects only.
+    /// The scenario for an arm that differs in its effects only.
     pub(crate) fn of_arm(&self, plant: Scenario) -> Self {
         Self { plant, ..self.clone() }
     }
 
-    /// The same with the softest gains of `robot.toml` that hold all these robots against gravity
-    /// along the motion ([`tracking::holds`]), the stiffest where none do.
+    /// The scenario with the softest gains of `robot.toml` that hold all these robots against gravity along the
+    /// motion ([`tracking::holds`]), or with the stiffest where none hold them.
     pub(crate) fn with_softest_gains(&self, robots: &[&Robot]) -> Self {
         let mut sets: Vec<(&String, &Vec<PdGain>)> = self.loaded.control.gain_sets.iter().collect();
         let stiffness = |gains: &[PdGain]| gains.iter().map(|gain| gain.kp).sum::<f64>();
@@ -74,7 +73,7 @@ impl TrackingScenario {
         softest.map_or_else(|| self.clone(), |(name, gains)| self.with_gains(name, gains))
     }
 
-    /// The same with the gains of a set of this name.
+    /// The scenario with the set of gains of this name.
     fn with_gains(&self, name: &str, gains: &[PdGain]) -> Self {
         let mut scenario = Self { gains: gains.to_vec(), ..self.clone() };
         name.clone_into(&mut scenario.spec.control.gains);
@@ -86,7 +85,7 @@ impl TrackingScenario {
         scenario
     }
 
-    /// What it says.
+    /// The scenario as it was written.
     pub(crate) fn spec(&self) -> &TrackingSpec {
         &self.spec
     }
@@ -101,7 +100,7 @@ impl TrackingScenario {
         &self.plant
     }
 
-    /// Where the scenario of the arm was read.
+    /// The file of the arm's scenario.
     pub fn plant_file(&self) -> &Path {
         &self.plant_file
     }
@@ -141,7 +140,7 @@ impl TrackingScenario {
         &self.spec.prediction
     }
 
-    /// What models are learned from.
+    /// The data that models are learned from.
     pub fn learn(&self) -> &LearnSpec {
         &self.spec.learn
     }
@@ -151,12 +150,12 @@ impl TrackingScenario {
         &self.spec.feedforward
     }
 
-    /// The range of gains, and the set that it scales.
+    /// The range of gains, and the set of gains that it scales.
     pub fn sweep(&self) -> Option<(&SweepSpec, &[PdGain])> {
         Some((self.spec.sweep.as_ref()?, &self.swept_gains))
     }
 
-    /// Everything that is fed forward, in the runs or in the sweep, once.
+    /// Every feedforward of the runs and the sweep, each once.
     pub fn all_feedforward(&self) -> Vec<FeedforwardKind> {
         let swept = self.spec.sweep.iter().flat_map(|sweep| &sweep.feedforward);
         let mut all = Vec::new();
@@ -175,7 +174,7 @@ pub(crate) fn plant_of(document: &Document) -> Result<(Document, PathBuf), Exper
     document_at(document, &KeyPath::root().key("plant"), &spec.plant)
 }
 
-/// The document in the file that a value of another document names, and that file.
+/// The document in the file that a value of `document` names, and that file.
 ///
 /// # Errors
 ///
@@ -193,7 +192,7 @@ pub fn document_at(
     Ok((Document::read(&file)?, file))
 }
 
-/// Refuses names in a list of a document that no run of the plant has.
+/// Refuses a list of runs in a document that names a run unknown to the plant.
 ///
 /// # Errors
 ///
@@ -213,7 +212,7 @@ pub fn known_runs(
     }
 }
 
-/// The motion that stands at a path of a document.
+/// The motion at a path of a document.
 ///
 /// # Errors
 ///
@@ -231,7 +230,7 @@ pub fn motion_at(
     })
 }
 
-/// The file of the plant, from any folder.
+/// The file of the plant, as a path that holds in any folder.
 fn resolve(document: &Document, spec: &TrackingSpec) -> String {
     let folder = document.directory_of(&KeyPath::root().key("plant"));
     let plant = folder.join(&spec.plant);

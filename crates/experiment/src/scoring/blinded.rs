@@ -8,20 +8,20 @@ use crate::error::ExperimentError;
 /// The truth about simulated logs, read only after they are diagnosed.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Blinded {
-    /// The seed that everything was drawn from.
+    /// The seed of all random draws.
     pub seed: u64,
-    /// What was put in.
+    /// The injected effects.
     pub effects: Vec<Truth>,
-    /// Effects of no catalogue that were put in.
+    /// The injected effects that no catalogue has.
     #[serde(default)]
     pub strangers: Vec<StrangerTruth>,
 }
 
 impl Blinded {
-    /// Name of its file, beside the logs.
+    /// Name of the file with the truth, beside the logs.
     pub const FILE: &str = "truth.json";
 
-    /// Opens the truth about the logs of a folder.
+    /// Reads the truth about the logs of a folder.
     ///
     /// # Errors
     ///

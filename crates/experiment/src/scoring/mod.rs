@@ -1,4 +1,4 @@
-//! How well a diagnosis names what was put in, and how near its sizes are.
+//! Scores of a diagnosis: whether it names the injected effects, and how near their sizes it comes.
 
 pub(crate) mod blinded;
 pub(crate) mod score;

@@ -7,50 +7,49 @@ use crate::scoring::size::Size;
 use crate::scoring::smallest::of_smallest;
 use crate::scoring::stored;
 
-/// How well a diagnosis names what was put in.
+/// How well a diagnosis names the injected effects.
 ///
 /// Of `k` injected effects, the `k` findings with the largest shares should be these effects.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Score {
-    /// The seed that everything was drawn from.
+    /// The seed of all random draws.
     pub seed: u64,
-    /// What was put in.
+    /// The injected effects.
     #[serde(rename = "put_in")]
     pub injected: Vec<Injected>,
-    /// Whether the diagnosis looked for it; if not, the right answer is that something is unknown.
+    /// Whether the diagnosis looked for the effects; if not, the right answer is that something is unknown.
     pub looked_for: bool,
     /// The verdict over all joints.
     #[serde(deserialize_with = "stored::verdict")]
     pub verdict: Verdict,
-    /// What was named, the largest share first.
+    /// The findings, the largest share first.
     pub findings: Vec<Named>,
-    /// Whether the first findings are the injected effects at their places; without an injected
-    /// effect, whether there is no finding.
+    /// Whether the first findings are the injected effects at their places. Without an injected effect, whether there
+    /// are no findings.
     pub exactly: bool,
-    /// Whether what was put in are the first findings or rivals of theirs.
+    /// Whether the injected effects are the first findings or rivals of these.
     pub as_one_of: bool,
-    /// Findings that are neither true nor rivals of a true one.
+    /// Findings that are neither injected effects nor rivals of a finding that is one.
     #[serde(deserialize_with = "stored::places")]
     pub stray: Vec<EffectAt>,
-    /// What the findings gain, where that was measured: at the joint of a single effect, otherwise
-    /// over all joints.
+    /// The gain of the findings, where it was measured: at the joint of a single effect, otherwise over all joints.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gains: Option<Gains>,
 }
 
-/// An effect that was put in.
+/// An injected effect.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Injected {
     /// The effect and its place.
     #[serde(flatten, deserialize_with = "stored::place")]
     pub at: EffectAt,
-    /// The finding that names it, counted from 0.
+    /// Index of the finding that names the effect.
     pub finding: Option<usize>,
-    /// The first finding that names it or a rival of which it is.
+    /// Index of the first finding that is the effect or has it as a rival.
     pub one_of: Option<usize>,
-    /// Its parameters.
+    /// The parameters of the effect.
     pub sizes: Vec<Size>,
-    /// Its size over the smallest that the logs would have shown, where the diagnosis tells.
+    /// Size of the effect over the smallest size that the logs would have shown, where the diagnosis states that.
     pub of_smallest: Option<f64>,
 }
 
@@ -63,13 +62,13 @@ pub struct Named {
     /// Share of the nominal residual's power that goes with it.
     #[serde(deserialize_with = "stored::number")]
     pub share_explained: f64,
-    /// What it may as well be.
+    /// Effects that explain the logs as well.
     #[serde(deserialize_with = "stored::places")]
     pub not_separable_from: Vec<EffectAt>,
 }
 
 impl Score {
-    /// Scores a diagnosis by what was put in.
+    /// Scores a diagnosis against the injected effects.
     pub fn new(diagnosis: &Diagnosis, truth: &[Truth], seed: u64) -> Self {
         let mut findings: Vec<&Finding> = diagnosis.findings.iter().collect();
         findings.sort_by(|a, b| b.share_explained.total_cmp(&a.share_explained));
@@ -112,8 +111,8 @@ impl Score {
         self.injected.iter().all(|p| p.one_of.is_some())
     }
 
-    /// Whether the logs show the injected effects. They do not where an effect is missed, no false
-    /// one is named in its place, and the diagnosis calls its size too small to be found.
+    /// Whether the logs show the injected effects. The answer is no where an effect is missed, no false effect is
+    /// named, and the diagnosis states that the effect is too small to be found.
     pub fn visible(&self) -> bool {
         let large = |p: &Injected| p.of_smallest.is_none_or(|ratio| ratio >= 1.0);
         self.is_found() || !self.stray.is_empty() || self.injected.iter().all(large)
@@ -126,7 +125,7 @@ impl Score {
         open && self.stray.is_empty()
     }
 
-    /// The trial in a line, such as `TR01 backlash at elbow, seed 7: unexplained, named nothing`.
+    /// The trial in one line, such as `TR01 backlash at elbow, seed 7: unexplained, named nothing`.
     pub fn words(&self) -> String {
         let all = |words: Vec<String>, join: &str, none: &str| {
             if words.is_empty() { none.to_owned() } else { words.join(join) }

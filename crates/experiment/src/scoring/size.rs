@@ -7,19 +7,19 @@ use simulator::Truth;
 
 use crate::scoring::stored;
 
-/// A parameter of what was put in, and what a diagnosis says of it.
+/// A parameter of an injected effect, and its estimate in a diagnosis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Size {
-    /// Its name, as in the catalogue.
+    /// Name of the parameter, as in the catalogue.
     pub name: String,
-    /// The value that was put in.
+    /// The injected value.
     #[serde(deserialize_with = "stored::number")]
     pub truth: f64,
-    /// The estimate of it, where the effect is named at its place.
+    /// The estimate, where the effect is named at its place.
     pub estimate: Option<Estimated>,
 }
 
-/// An estimate on the scale of what was put in.
+/// An estimate, stated in the way of the injected value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Estimated {
     /// Best value.
@@ -28,20 +28,20 @@ pub struct Estimated {
     /// 95 per cent interval.
     #[serde(deserialize_with = "stored::interval")]
     pub ci95: [f64; 2],
-    /// The same of noise alone; none of what was scored before the two differed.
+    /// The same for noise alone; `None` in scores that were stored before the two differed.
     #[serde(default, deserialize_with = "stored::known_interval")]
     pub noise95: Option<[f64; 2]>,
-    /// Whether the logs narrow it down.
+    /// Whether the logs determine the value.
     pub determined: bool,
-    /// Whether the interval holds the truth.
+    /// Whether the interval contains the injected value.
     pub covers: bool,
-    /// `|value - truth| / size`: the size of a number is its own, of a component that of its
-    /// vector, of a phase one turn; none for a number that is zero.
+    /// `|value - truth| / size`. The size is that of the number itself, of the vector for a component, and one turn
+    /// for a phase. `None` for a number that is zero.
     pub relative_error: Option<f64>,
 }
 
 impl Size {
-    /// The parameters of `truth` beside the estimates of a finding that names it.
+    /// The parameters of `truth`, each with its estimate in a finding that names the effect.
     pub fn all(truth: &Truth, estimates: &[Estimate]) -> Vec<Self> {
         let size = |(name, &value): (&String, &f64)| {
             let of = estimates.iter().find(|estimate| estimate.name == name);
@@ -75,14 +75,14 @@ fn on_truth_scale(truth: &Truth, value: f64, estimate: &Estimate) -> Estimated {
     }
 }
 
-/// How the simulator states an injected parameter, relative to the number that the robot ends up
+/// How the simulator states an injected parameter, relative to the value of the resulting robot.
 /// with.
 enum Stated {
-    /// On top of what the description says.
+    /// A change, added to the described value.
     Added,
-    /// As a factor of what the description says.
+    /// A factor of the described value.
     Factor,
-    /// In whole.
+    /// The resulting value itself.
     Whole,
 }
 
@@ -104,8 +104,8 @@ fn statement_of(effect: EffectKind, parameter: &str) -> Stated {
     }
 }
 
-/// How much of a parameter was put in: the length of a vector, the distance of a factor from 1, or
-/// the number, of a breakaway level that beyond the Coulomb level; none of one that was not.
+/// The injected amount of a parameter: the length of a vector, the distance of a factor from 1, or else the number.
+/// For a breakaway level it is the excess over the Coulomb level. `None` for a parameter without injection.
 pub(super) fn injected_amount(truth: &Truth, name: &str) -> Option<f64> {
     let value = *truth.parameters.get(name)?;
     if (truth.effect, name) == (EffectKind::StribeckFriction, "breakaway") {
@@ -117,7 +117,7 @@ pub(super) fn injected_amount(truth: &Truth, name: &str) -> Option<f64> {
     })
 }
 
-/// What an error of a parameter is measured by.
+/// The size that an error of a parameter is divided by.
 fn magnitude(truth: &Truth, name: &str) -> f64 {
     if name == "phase" {
         return TAU;

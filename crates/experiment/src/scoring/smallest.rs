@@ -8,16 +8,16 @@ use crate::scoring::size::{Size, injected_amount};
 /// two-sided test at level 0.005 finds four of five, over 1.96.
 const SMALLEST_OVER_HALF: f64 = 3.65 / 1.96;
 
-/// How large an effect is beside the smallest that its logs would have shown:
+/// Size of an effect over the smallest size that its logs would have shown:
 ///
 /// ```text
 /// size / (1.86 half)                where it is named, half its 95 per cent interval of noise,
 /// size / smallest detectable size   where the diagnosis says what it would have found
 /// ```
 ///
-/// of the parameter that shows most; zero where it says that the logs could not show any. A spring
-/// shows the more the softer it is. None where neither is said, and of the body of a link, whose
-/// size is a change of a whole that only the robot tells.
+/// for the parameter with the largest ratio. It is zero where the diagnosis states that the logs could show no size.
+/// For a spring the ratio is inverted: a softer one shows more. `None` where the diagnosis states neither, and for
+/// the body of a link, whose size is a change of a whole that only the robot states.
 pub(super) fn of_smallest(
     truth: &Truth,
     (at, sizes): (&EffectAt, &[Size]),

@@ -1,10 +1,10 @@
-//! Scores read back from JSON, in which a number that is not finite is null.
+//! Scores read back from JSON, where null stands for a number that is not finite.
 
 use catalogue::EffectKind;
 use diagnosis::{EffectAt, Verdict};
 use serde::{Deserialize, Deserializer};
 
-/// An effect and its place; the code beside the name is for people.
+/// An effect and its place; the code beside the name is for readers.
 #[derive(Deserialize)]
 struct Place {
     effect: EffectKind,
@@ -58,7 +58,7 @@ pub fn verdict<'de, D: Deserializer<'de>>(from: D) -> Result<Verdict, D::Error> 
     Named::deserialize(from)
 }
 
-/// A number; null is not a number.
+/// A number; null becomes NaN.
 ///
 /// # Errors
 ///
@@ -67,7 +67,7 @@ pub fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(from)?.unwrap_or(f64::NAN))
 }
 
-/// An interval of which null ends are not numbers; none where it is absent.
+/// An interval whose null ends become NaN; `None` where it is absent.
 ///
 /// # Errors
 ///
@@ -77,7 +77,7 @@ pub fn known_interval<'de, D: Deserializer<'de>>(from: D) -> Result<Option<[f64;
     Ok(known.map(|interval| interval.map(|end| end.unwrap_or(f64::NAN))))
 }
 
-/// An interval of which null ends are not numbers.
+/// An interval whose null ends become NaN.
 ///
 /// # Errors
 ///

@@ -1,6 +1,6 @@
 use logs::{LogError, LowPass, decimate};
 
-/// Order of the low-pass in one pass.
+/// Order of the low-pass, before it runs forward and backward.
 const ORDER: usize = 4;
 
 /// Rate at which columns are evaluated, in cut-off frequencies.
@@ -9,16 +9,16 @@ const EVALUATION_RATE: f64 = 16.0;
 /// Rate of a regression, in cut-off frequencies.
 const REGRESSION_RATE: f64 = 2.5;
 
-/// Cut-off, over that of the band, in front of the first decimation.
+/// Cut-off of the filter before the first decimation, in cut-offs of the band.
 const GUARD: f64 = 4.0;
 
-/// The band in which models are compared: a zero-phase low-pass, and the two steps in which the
-/// rate of a log comes down to 2.5 cut-off frequencies.
+/// The band in which models are compared: a zero-phase low-pass, and the two decimations that bring the rate of a log
+/// down to 2.5 cut-off frequencies.
 ///
-/// Rates and filters are those of `diagnosis::unexplained_torque`, so that errors of all models are of the
-/// same samples.
+/// Rates and filters are those of `diagnosis::unexplained_torque`, so that the errors of all models are of the same
+/// samples.
 pub struct Band {
-    /// Samples of a log to one of a column.
+    /// Number of samples of a log per sample of a column.
     pub stride: usize,
     second: usize,
     guard: Option<LowPass>,
@@ -26,7 +26,7 @@ pub struct Band {
 }
 
 impl Band {
-    /// The band below a cut-off, of logs with this rate (Hz).
+    /// The band below `cutoff_hz` for logs with this rate (Hz).
     ///
     /// # Errors
     ///
@@ -43,12 +43,12 @@ impl Band {
         })
     }
 
-    /// Samples of a log to one of the regression.
+    /// Number of samples of a log per sample of the regression.
     pub fn whole_stride(&self) -> usize {
         self.stride * self.second
     }
 
-    /// A signal at the rate of the log, low-passed, at the rate of the regression.
+    /// A signal at the rate of the log, low-passed and brought to the rate of the regression.
     pub fn of_log(&self, mut x: Vec<f64>) -> Vec<f64> {
         if let Some(guard) = &self.guard {
             guard.apply(&mut x);
@@ -57,7 +57,7 @@ impl Band {
         self.of_column(x)
     }
 
-    /// A signal at the rate of a column, low-passed, at the rate of the regression.
+    /// A signal at the rate of a column, low-passed and brought to the rate of the regression.
     pub fn of_column(&self, mut x: Vec<f64>) -> Vec<f64> {
         self.low_pass.apply(&mut x);
         decimate(&x, self.second)

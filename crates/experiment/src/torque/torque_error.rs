@@ -15,26 +15,26 @@ use crate::torque::turning_error::TurningError;
 /// Order of the low-pass of torques, as in the diagnosis.
 const ORDER: usize = 4;
 
-/// How well a model predicts the torque of runs that it has not seen, in the band of the motion.
+/// Error of a model's torque prediction on held-out runs, in the band of the motion.
 ///
 /// ```text
 /// error = L(measured - predicted),   nMSE = mean(error²) / variance(L measured)
 /// ```
 ///
-/// with `L` the low-pass of the diagnosis: what is faster is noise or vibration, which no model of
-/// the state predicts. A description of the robot predicts along the motion, with delays, springs
-/// and encoders that err ([`unexplained_torque`]), a learned model from the state at each instant.
+/// with `L` the low-pass of the diagnosis. Faster signals are noise or vibration, which no model of the state
+/// predicts. A described robot predicts along the motion, with delays, springs and encoder errors
+/// ([`unexplained_torque`]). A learned model predicts from the state at each instant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TorqueError {
     /// Name of the model.
     pub model: String,
     /// RMS of the error, by joint (N m or N).
     pub rms_nm: Vec<f64>,
-    /// nMSE, by joint; none where the torque is constant.
+    /// nMSE, by joint; `None` where the torque is constant.
     pub nmse: Vec<Option<f64>>,
 }
 
-/// The errors of every model that a scenario feeds forward, on runs that it was not learned from.
+/// The errors of every model that a scenario feeds forward, on runs that the models were not learned from.
 ///
 /// # Errors
 ///
@@ -56,11 +56,12 @@ pub fn torque_errors(
     Ok(errors)
 }
 
-/// RMS by joint of what a described robot leaves of runs (N m or N) while the joint moves, in the band
-/// of their motion ([`unexplained_torque`]): the nominal one, one that a diagnosis has extended, any.
+/// RMS of the torque that a described robot leaves unexplained, by joint (N m or N), while the joint moves, in the
+/// band of the motion ([`unexplained_torque`]). The robot may be the nominal one or one that a diagnosis has
+/// extended.
 ///
-/// A joint slower than 5 mrad/s (or mm/s) for .2 s is held by dry friction of any size up to its level,
-/// which no model predicts; these samples count nothing, and a joint that only stands has no error.
+/// A joint slower than 5 mrad/s (or mm/s) for 0.2 s is held by dry friction of any size up to its level, which no
+/// model predicts. These samples are left out, and a joint that only stands has no error.
 ///
 /// # Errors
 ///
@@ -68,7 +69,7 @@ pub fn torque_errors(
 ///
 /// # Panics
 ///
-/// When robot and runs are not of one number of joints.
+/// When robot and runs differ in their number of joints.
 pub fn robot_error(
     robot: &Robot,
     control_rate_hz: Option<f64>,
@@ -105,7 +106,7 @@ impl TorqueError {
     }
 }
 
-/// What a learned model leaves of each run.
+/// The torque of each run that a learned model leaves unexplained.
 fn unexplained_by(model: &Model, test: &Prepared) -> Result<Vec<LeftOver>, LogError> {
     let of = |run: &PreparedRun| {
         let part = test.with_runs(vec![run.clone()]);
@@ -115,7 +116,7 @@ fn unexplained_by(model: &Model, test: &Prepared) -> Result<Vec<LeftOver>, LogEr
     test.runs.iter().map(of).collect()
 }
 
-/// The efforts of a run and what `predicted`, row-major, leaves of them.
+/// The efforts of a run, and their residual after `predicted` (row-major), in the band.
 fn in_band(run: &PreparedRun, predicted: &[f64], low_pass: &LowPass) -> LeftOver {
     let mut measured: Vec<Vec<f64>> = run.joints.iter().map(|j| j.effort.clone()).collect();
     let mut left = measured.clone();

@@ -2,23 +2,23 @@ use logs::{LogError, PreparedRun};
 
 use crate::torque::band::Band;
 
-/// Speed below which a joint is held by any part of its dry friction (rad/s or m/s).
+/// Speed below which dry friction may hold a joint with any part of its level (rad/s or m/s).
 const HELD_SPEED: f64 = 5e-3;
 
-/// How long a joint must be slower to be held and not turn (s).
+/// Time that a joint must stay slower to count as held rather than turning (s).
 const HELD_S: f64 = 0.2;
 
-/// Samples on either side of a stretch in which a joint is held that the low-pass mixes with it: .35
-/// periods of the cut-off at 2.5 times that rate.
+/// Number of samples beside a held stretch that the low-pass mixes with it: 0.35 periods of the cut-off, at 2.5
+/// samples a period.
 const MIXED: usize = 1;
 
-/// Fewest samples of a joint that moves that an error is told of.
+/// Fewest samples of a moving joint for which an error is stated.
 const FEWEST: usize = 10;
 
-/// RMS of errors of torque, joint by joint, while the joints move.
+/// RMS torque errors, by joint, while the joints move.
 ///
-/// A joint that stands is held by dry friction of any size up to its level: no model predicts its
-/// torque, and one without friction errs by chance the least.
+/// A joint that stands is held by dry friction of any size up to its level. No model predicts that torque, and a
+/// model without friction may by chance have the smallest error.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TurningError {
     squares: Vec<f64>,
@@ -26,12 +26,12 @@ pub struct TurningError {
 }
 
 impl TurningError {
-    /// No errors yet, of a robot with so many joints.
+    /// No errors yet, for this number of joints.
     pub fn new(joints: usize) -> Self {
         Self { squares: vec![0.0; joints], samples: vec![0; joints] }
     }
 
-    /// Adds the errors of a run, `[joint][sample]` in the band below the cut-off and at its rate.
+    /// Adds the errors of a run, `[joint][sample]`, in the band below the cut-off and at its rate.
     ///
     /// # Errors
     ///
@@ -55,7 +55,7 @@ impl TurningError {
         Ok(())
     }
 
-    /// RMS by joint (N m or N); none of a joint that moves at fewer than ten samples.
+    /// RMS by joint (N m or N); `None` for a joint that moves in fewer than ten samples.
     pub fn rms(&self) -> Vec<Option<f64>> {
         let of = |(square, samples): (&f64, &usize)| {
             (*samples >= FEWEST).then(|| (square / *samples as f64).sqrt())
@@ -64,7 +64,7 @@ impl TurningError {
     }
 }
 
-/// Where a joint with these velocities moves or turns.
+/// The samples in which a joint with these velocities moves or turns.
 fn moves(qd: &[f64], rate_hz: f64) -> Vec<bool> {
     let shortest = (HELD_S * rate_hz).ceil() as usize;
     let mut moves = vec![true; qd.len()];

@@ -2,14 +2,14 @@ use std::path::{Path, PathBuf};
 
 use crate::scenario::feedforward_kind::FeedforwardKind;
 
-/// Where runs are written while they go on.
+/// The folders of the files that are written during a run.
 #[derive(Debug, Clone)]
 pub struct Outputs {
-    /// Folder of the logs, one a feedforward.
+    /// Folder of the logs, one log a feedforward.
     pub logs: PathBuf,
-    /// Folder of the recordings, one a feedforward; nothing is recorded without.
+    /// Folder of the recordings, one recording a feedforward; `None` records nothing.
     pub recordings: Option<PathBuf>,
-    /// Whether a running viewer sees them too.
+    /// Whether a running viewer receives the recordings too.
     pub live: recording::Live,
 }
 

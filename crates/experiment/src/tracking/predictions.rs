@@ -10,7 +10,7 @@ use crate::tracking::tracked_run::TrackedRun;
 /// Time between two predictions (s).
 const PERIOD_S: f64 = 0.04;
 
-/// What the other models of a scenario expect along the motion of a run, after it.
+/// Torques that the other models of a scenario predict along the motion of a finished run.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Predictions {
     /// Times since the motion began (s).
@@ -18,18 +18,18 @@ pub(crate) struct Predictions {
     pub models: Vec<Predicted>,
 }
 
-/// What one model expects.
+/// Torques that one model predicts.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Predicted {
     pub kind: FeedforwardKind,
-    /// Its place among what the scenario feeds forward.
+    /// Index of the model in the feedforward of the scenario.
     pub place: usize,
     /// Row-major torque of all joints (N m or N).
     pub tau: Vec<f64>,
 }
 
 impl Predictions {
-    /// Of every model that the scenario feeds forward in another run.
+    /// The predictions of every model that the scenario feeds forward in another run.
     pub fn of(scenario: &TrackingScenario, learned: &Learned, run: &TrackedRun) -> Self {
         let step = (PERIOD_S / run.tracking.period_s).round().max(1.0) as usize;
         let kinds = scenario.feedforward().par_iter().enumerate();

@@ -20,34 +20,34 @@ use crate::tracking::predictions::Predictions;
 use crate::tracking::tracked_run::{TrackedRun, Written};
 use crate::tracking::words::words;
 
-/// Ticks that are handed over at a time: half a second at 500 Hz.
+/// Number of ticks that are handed over at a time: half a second at 500 Hz.
 const BLOCK: usize = 250;
 
-/// Writes a run while it goes on, in a thread of its own, so that the loop never waits for it.
+/// Writes a run in a thread of its own while the run goes on, so that the loop never waits.
 pub struct Stream<'a> {
     progress: &'a dyn Progress,
     block: Block,
-    /// Where blocks go; none where nothing is written.
+    /// The thread that writes the blocks; `None` where nothing is written.
     writer: Option<Writing>,
     second: f64,
 }
 
-/// The thread that writes.
+/// The thread that writes, and its files.
 struct Writing {
     to: Sender<Message>,
     thread: JoinHandle<Files>,
-    /// The log while it grows.
+    /// The log while the run goes on.
     growing: PathBuf,
     log: PathBuf,
     recording: Option<PathBuf>,
     name: String,
 }
 
-/// What is written into.
+/// The open files of a run.
 struct Files {
     log: LogWriter,
     recorder: Option<Recorder>,
-    /// The first thing that the recorder refused.
+    /// The first error of the recorder.
     refused: Option<RecordingError>,
 }
 
@@ -56,7 +56,7 @@ enum Message {
     Event(Event),
 }
 
-/// Consecutive ticks, signals row-major.
+/// Consecutive ticks, with row-major signals.
 #[derive(Debug, Clone, Default)]
 struct Block {
     time_s: Vec<f64>,
@@ -114,8 +114,8 @@ impl<'a> Stream<'a> {
         Ok(Self { progress, block: Block::default(), writer, second: 0.0 })
     }
 
-    /// Closes the files; the log is then one Parquet file, and the recording shows what the
-    /// other models expect too.
+    /// Closes the files. The log becomes one Parquet file, and the recording gets the predictions of the other
+    /// models.
     pub fn finish(
         mut self,
         scenario: &TrackingScenario,
@@ -193,7 +193,7 @@ impl Writing {
         Ok(Self { to, thread, growing, log, recording, name })
     }
 
-    /// Every file is tried, whatever became of the others.
+    /// Closes every file, whether or not closing another one fails.
     fn finish(self, scenario: &TrackingScenario, learned: &Learned, run: &TrackedRun) -> Written {
         let Self { to, thread, growing, log, recording, name } = self;
         drop(to);
@@ -244,7 +244,7 @@ fn write_log(
     Ok(write_parquet(path, &run.tracking.to_run(name, scenario.robot())?)?)
 }
 
-/// Adds to a recording what is known at the end of the run, and ends it.
+/// Adds to a recording the results that are known at the end of the run, and closes it.
 fn end(
     mut recorder: Recorder,
     (scenario, learned, run): (&TrackingScenario, &Learned, &TrackedRun),
@@ -273,7 +273,7 @@ fn end(
 }
 
 impl Files {
-    /// Writes what comes. What one file refuses keeps nothing from the other.
+    /// Writes blocks as they arrive. An error of one file does not stop the other.
     fn write(&mut self, from: &Receiver<Message>) {
         for message in from {
             let recorded = match message {
@@ -311,7 +311,7 @@ impl Files {
     }
 }
 
-/// A log that grows, with the columns of [`Files::rows`].
+/// A writer of a growing log with the columns of [`Files::rows`].
 fn log_writer(scenario: &TrackingScenario, path: &Path) -> Result<LogWriter, ExperimentError> {
     let joints: Vec<&str> = scenario.robot().joint_names().collect();
     let channels = [

@@ -11,16 +11,16 @@ use crate::scenario::feedforward_kind::FeedforwardKind;
 use crate::scenario::tracking_scenario::TrackingScenario;
 use crate::tracking::track::{Parts, controller};
 
-/// The errors at several gains.
+/// Tracking errors at several gains.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GainSweep {
     /// Name of the set of gains that is scaled.
     pub gains: String,
-    /// How much of the motion is tracked (s).
+    /// Duration of the motion that is tracked (s).
     pub duration_s: f64,
     /// Factors of `kp`; those of `kd` are their square roots.
     pub scales: Vec<f64>,
-    /// The errors of each feedforward.
+    /// The errors, one entry a feedforward.
     pub models: Vec<SweptModel>,
 }
 
@@ -29,18 +29,18 @@ pub struct GainSweep {
 pub struct SweptModel {
     /// What is fed forward.
     pub kind: FeedforwardKind,
-    /// Root mean square error by joint, for each of the scales (rad or m); NaN where the arm did
-    /// not come to the end.
+    /// Root mean square error by joint, for each of the scales (rad or m); NaN where the arm did not reach the end of
+    /// the motion.
     pub rmse: Vec<Vec<f64>>,
 }
 
-/// Tracks the motion of a scenario over its range of gains, if it has one.
+/// Tracks the motion of a scenario over its range of gains, if it has one:
 ///
 /// ```text
 /// kp = scale kp_0,   kd = sqrt(scale) kd_0
 /// ```
 ///
-/// which keeps the damping ratio of a joint whose inertia dominates.
+/// This keeps the damping ratio of a joint whose inertia dominates.
 ///
 /// # Errors
 ///
@@ -85,7 +85,7 @@ fn scale_gains(gains: &[PdGain], scale: f64) -> Vec<PdGain> {
     gains.iter().map(|g| PdGain { kp: scale * g.kp, kd: scale.sqrt() * g.kd }).collect()
 }
 
-/// Ends a run at a time, or when the user does.
+/// Ends a run at a given time, or when the user stops it.
 struct Until<'a> {
     end_s: f64,
     second: f64,

@@ -21,7 +21,7 @@ use crate::tracking::outputs::Outputs;
 use crate::tracking::stream::Stream;
 use crate::tracking::tracked_run::TrackedRun;
 
-/// The logs that a scenario's models are learned from, simulated.
+/// Simulates the logs that a scenario's models are learned from.
 ///
 /// # Errors
 ///
@@ -40,8 +40,8 @@ pub fn simulated_logs(
     Ok(simulator::simulate_only(scenario.plant(), &is_learned, &second)?.runs)
 }
 
-/// Tracks the motion of a scenario with everything that it feeds forward: on the virtual clock
-/// side by side, on that on the wall one after the other.
+/// Tracks the motion of a scenario with every feedforward that it lists: in parallel on the virtual clock, one after
+/// the other on the wall clock.
 ///
 /// # Errors
 ///
@@ -69,7 +69,7 @@ pub fn track_all(
     }
 }
 
-/// The feedback of a scenario, with these gains.
+/// The feedback of a scenario with these gains.
 pub(crate) fn controller(
     scenario: &TrackingScenario,
     gains: &[PdGain],
@@ -86,7 +86,7 @@ pub(crate) fn controller(
     Ok(Controller { gains: gains.to_vec(), limits: TorqueLimits::new(limits, pairs)?, error_rate })
 }
 
-/// What one run is made of.
+/// The parts of one run.
 pub(crate) struct Parts<'a> {
     pub scenario: &'a TrackingScenario,
     pub learned: &'a Learned,
@@ -95,7 +95,7 @@ pub(crate) struct Parts<'a> {
 }
 
 impl Parts<'_> {
-    /// Tracks the motion with an arm of its own, the same whatever is fed forward.
+    /// Tracks the motion with a new arm, which is the same for every feedforward.
     pub fn run(&self, watch: &mut dyn TrackingWatch) -> Result<TrackedRun, ExperimentError> {
         let Self { scenario, kind, .. } = *self;
         let mut arm = simulator::arm(scenario.plant(), 0)?;
@@ -118,8 +118,7 @@ impl Parts<'_> {
         Ok(TrackedRun { kind, prediction_time_s, tracking, metrics, written: None })
     }
 
-    /// What is fed forward to a machine that holds a command for `period_s` (s): the torque of
-    /// the middle of that time.
+    /// The feedforward for a machine that holds a command for `period_s` (s): the torque at the middle of that time.
     fn feedforward(&self, period_s: f64) -> Result<Box<dyn Feedforward + '_>, ExperimentError> {
         let lead_s = 0.5 * period_s;
         let joints = self.scenario.robot().joint_count();
@@ -140,7 +139,7 @@ impl Parts<'_> {
         })
     }
 
-    /// Median time of a prediction, over states of the motion in turn (s).
+    /// Median time of a prediction over states of the motion (s).
     fn prediction_time_s(&self, feedforward: &mut dyn Feedforward) -> f64 {
         let motion = self.scenario.motion();
         let mut prediction = TorquePrediction::zero(feedforward.joints());

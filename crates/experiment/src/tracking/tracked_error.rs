@@ -3,15 +3,14 @@ use tracking::{End, JointMetrics};
 
 use crate::tracking::tracked_run::TrackedRun;
 
-/// How well the arm follows the motion with one feedforward.
+/// Tracking error with one feedforward.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TrackedError {
-    /// Name of what is fed forward.
+    /// Name of the feedforward.
     pub model: String,
-    /// RMS of the error, by joint (rad or m): of the link, where its position is known; none of a
-    /// run that did not come to its end.
+    /// RMS error by joint (rad or m), of the link where its position is known. `None` for a run that stopped early.
     pub rms: Option<Vec<f64>>,
-    /// RMS distance of the origin of the last link from where it should be (m); none likewise.
+    /// RMS distance of the origin of the last link from its reference (m). `None` for a run that stopped early.
     pub tip_rms_m: Option<f64>,
     /// RMS of the feedback over that of the command, by joint.
     pub feedback_share: Vec<f64>,

@@ -8,13 +8,13 @@ use crate::scenario::feedforward_kind::FeedforwardKind;
 /// One motion tracked with one feedforward.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrackedRun {
-    /// What was fed forward.
+    /// The feedforward.
     pub kind: FeedforwardKind,
-    /// Time that one prediction takes here, for all joints (s).
+    /// Time of one prediction for all joints on this computer (s).
     pub prediction_time_s: f64,
-    /// Every tick, and how it ended.
+    /// Every tick, and how the run ended.
     pub tracking: Tracking,
-    /// How well the arm followed.
+    /// The tracking errors.
     pub metrics: TrackingMetrics,
     /// The files that were written.
     pub written: Option<Written>,
@@ -23,12 +23,12 @@ pub struct TrackedRun {
 /// The files of a run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Written {
-    /// The log: one Parquet file, or where that could not be written the CSV file that grew.
+    /// The log: one Parquet file, or the growing CSV file where the Parquet file could not be written.
     pub log: PathBuf,
-    /// The recording, where one is asked for.
+    /// The recording, if one was asked for.
     pub recording: Option<PathBuf>,
-    /// Who saw the recording while it was written.
+    /// The viewer that received the recording during the run.
     pub listener: Listener,
-    /// What could not be written, in sentences that name the file; the run went on.
+    /// Files that could not be written, each in a sentence that names the file; the run itself went on.
     pub problems: Vec<String>,
 }

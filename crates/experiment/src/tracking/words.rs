@@ -3,7 +3,7 @@ use robot::JointKind;
 use crate::scenario::tracking_scenario::TrackingScenario;
 use crate::tracking::tracked_run::TrackedRun;
 
-/// What a run came to, as markdown for the recording.
+/// The results of a run, as Markdown for the recording.
 pub(crate) fn words(scenario: &TrackingScenario, run: &TrackedRun) -> String {
     let robot = scenario.robot();
     let tip = run.metrics.end_effector_of_links.unwrap_or(run.metrics.end_effector);

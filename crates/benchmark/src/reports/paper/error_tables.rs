@@ -5,11 +5,11 @@ use pages::{
 
 use crate::paper::learning_errors::{LearningErrors, ModelErrors};
 
-/// The errors of some models on some data.
+/// Errors of some models on one data set.
 pub(super) struct ErrorTable<'a> {
-    /// What they are measured on, in a few words.
+    /// The data set, in a few words.
     pub title: String,
-    /// More words.
+    /// Explanation of the data set.
     pub words: String,
     /// Names of the joints.
     pub joints: &'a [String],
@@ -18,7 +18,7 @@ pub(super) struct ErrorTable<'a> {
 }
 
 impl ErrorTable<'_> {
-    /// One row a joint, a star at the least error; `more` stands at the right.
+    /// One row a joint, with a star at the least error; `more` is the rightmost column.
     pub fn columns(&self, more: Option<GridColumn>) -> Vec<GridColumn> {
         let rows: Vec<Vec<Cell>> = (0..self.joints.len())
             .map(|j| mark_least(&self.models.iter().map(|m| nmse(m, j)).collect::<Vec<_>>()))
@@ -49,7 +49,7 @@ impl ErrorTable<'_> {
     }
 }
 
-/// The least error of a process outside over that of the named effects, joint by joint.
+/// Least error of a Gaussian process over that of the named effects, outside the training data, by joint.
 pub(super) fn worse_than_named(errors: &LearningErrors) -> GridColumn {
     let cell = |j: usize| {
         let times = errors.outside_gain(j).map(|times| significant(times, TABLE_DIGITS) + "x");

@@ -12,16 +12,16 @@ use crate::reports::paper::page::{Contents, Drawing, page, table};
 /// Name and version of the schema of the `metrics.json` of figure 2.
 pub const LEARNING_FIGURE_SCHEMA: &str = "plumbline.figure_learning/1";
 
-/// Figure 2 of Nguyen-Tuong & Peters 2010, for people and programs.
+/// Figure 2 of Nguyen-Tuong & Peters 2010, for readers and programs.
 #[derive(Debug, Clone, Copy)]
 pub struct LearningFigureReport<'a> {
     /// The errors.
     pub errors: &'a LearningErrors,
-    /// What is claimed of them, judged.
+    /// The judged claims about the errors.
     pub claims: &'a [Claim],
-    /// What the motion outside is, in a sentence.
+    /// The motion outside, in a sentence.
     pub outside: &'a str,
-    /// Where it all comes from.
+    /// Program, command and inputs behind the results.
     pub provenance: &'a Provenance,
 }
 
@@ -56,8 +56,8 @@ impl LearningFigureReport<'_> {
         ])
     }
 
-    /// `report.html`: the claims, the three figures and the tables behind them in one file that
-    /// opens offline, and without scripts too.
+    /// `report.html`: the claims, the three figures and their tables in one file that opens offline and without
+    /// scripts.
     ///
     /// # Errors
     ///
@@ -105,7 +105,7 @@ impl LearningFigureReport<'_> {
         out
     }
 
-    /// The errors, data by data.
+    /// The errors, one table a data set.
     fn tables(&self) -> [ErrorTable<'_>; 3] {
         let errors = self.errors;
         let counts = format!(
@@ -125,7 +125,7 @@ impl LearningFigureReport<'_> {
         ]
     }
 
-    /// What stands at the right of their tables.
+    /// The rightmost columns of the tables.
     fn more(&self) -> [Option<GridColumn>; 3] {
         [None, None, Some(worse_than_named(self.errors))]
     }

@@ -1,4 +1,4 @@
-//! Figures of Nguyen-Tuong & Peters 2010, and whether what the paper claims of them holds.
+//! Reports of the figures of Nguyen-Tuong & Peters 2010 and of the paper's claims about them.
 
 pub(crate) mod error_tables;
 pub(crate) mod learning_figure;

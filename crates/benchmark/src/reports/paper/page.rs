@@ -3,19 +3,19 @@ use experiment::Claim;
 use pages::{GridColumn, HtmlGrid, Provenance, ReportError, escape_json, render_html, render_page};
 use report::{ClaimRow, ClaimUnit, claim_rows, claims_sentence};
 
-/// What the page of a figure shows.
+/// The content of the page of a figure.
 pub(super) struct Contents<'a> {
     /// The figure of the paper, in a few words.
     pub kicker: String,
-    /// What is claimed of it.
+    /// The claims about the figure.
     pub claims: &'a [Claim],
-    /// What the numbers of the claims are.
+    /// The quantity of the claims' numbers.
     pub quantity: ClaimUnit,
     /// The drawings with their tables.
     pub drawings: Vec<Drawing>,
-    /// What to know of the numbers.
+    /// Remarks on the numbers.
     pub remarks: &'a [String],
-    /// Where it all comes from.
+    /// Program, command and inputs behind the results.
     pub provenance: &'a Provenance,
     /// Name and text of the JSON.
     pub json: (&'static str, String),
@@ -42,7 +42,7 @@ struct Page<'a> {
     json: String,
 }
 
-/// One file that opens offline, and without scripts too.
+/// The page as one file that opens offline and without scripts.
 pub(super) fn page(contents: Contents) -> Result<String, ReportError> {
     let (id, json) = contents.json;
     render_page(&Page {

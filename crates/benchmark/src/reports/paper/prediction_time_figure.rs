@@ -10,12 +10,12 @@ use crate::reports::times::prediction_times::PredictionTimes;
 /// Name and version of the schema of the `metrics.json` of figure 1.
 pub const PREDICTION_TIME_FIGURE_SCHEMA: &str = "plumbline.figure_prediction_time/1";
 
-/// Figure 1 of Nguyen-Tuong & Peters 2010, for people and programs.
+/// Figure 1 of Nguyen-Tuong & Peters 2010, for readers and programs.
 #[derive(Debug, Clone, Copy)]
 pub struct PredictionTimeFigureReport<'a> {
     /// The times.
     pub times: &'a PredictionTimes,
-    /// What is claimed of them, judged.
+    /// The judged claims about the times.
     pub claims: &'a [Claim],
 }
 
@@ -37,8 +37,7 @@ impl PredictionTimeFigureReport<'_> {
         with_schema(PREDICTION_TIME_FIGURE_SCHEMA, &json)
     }
 
-    /// `report.html`: the claims, the figure and the table behind it in one file that opens
-    /// offline, and without scripts too.
+    /// `report.html`: the claims, the figure and its table in one file that opens offline and without scripts.
     ///
     /// # Errors
     ///

@@ -11,15 +11,15 @@ const SCHEMA: &str = "plumbline.prediction_times/1";
 pub struct PredictionTimes {
     /// Name of the robot.
     pub robot: String,
-    /// Joints that one prediction is for.
+    /// Number of joints that one prediction covers.
     pub joints: usize,
-    /// The machine, in words.
+    /// The computer, in words.
     pub machine: String,
     /// The measured times.
     pub curves: Vec<TimeCurve>,
-    /// Times that were not measured and why, and cautions about the numbers, in sentences.
+    /// Times that were not measured, with the reason, and cautions about the numbers, in sentences.
     pub remarks: Vec<String>,
-    /// Where it all comes from.
+    /// Program, command and inputs behind the results.
     pub provenance: Provenance,
 }
 
@@ -28,26 +28,26 @@ pub struct PredictionTimes {
 pub struct TimeCurve {
     /// Its name.
     pub name: String,
-    /// Whose it is.
+    /// The program that the model belongs to.
     pub maker: Maker,
     /// The times, by rising number of points.
     pub points: Vec<TimePoint>,
 }
 
-/// Whose a model is.
+/// The program that a model belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Maker {
     /// This program.
     Plumbline,
-    /// Another program, run beside it.
+    /// Another program, measured for comparison.
     Peer,
 }
 
-/// A number of training points and the time that a prediction takes with them.
+/// A number of training points and the time of a prediction with them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TimePoint {
-    /// Training points.
+    /// Number of training points.
     pub n: usize,
     /// Median time of one prediction, all joints (us).
     pub microseconds: f64,
@@ -89,7 +89,7 @@ impl PredictionTimes {
         (labels, columns.collect())
     }
 
-    /// Every number of points that occurs, rising.
+    /// Every number of points of any curve, rising.
     fn numbers(&self) -> Vec<usize> {
         let points = self.curves.iter().flat_map(|curve| &curve.points);
         let mut numbers: Vec<usize> = points.map(|point| point.n).collect();

@@ -23,7 +23,7 @@ const NAME_CHARACTERS: usize = ((876.0 - NAMES) / CHARACTER_WIDTH) as usize;
 /// Period of a control loop of 1 kHz (us).
 const PERIOD_US: f64 = 1000.0;
 
-/// Powers of ten that the axis of time spans at most.
+/// Most powers of ten on the time axis.
 const MOST_DECADES: i32 = 9;
 
 /// Dashes of the curves of peers, one after the other.
@@ -37,13 +37,13 @@ struct Drawing {
     y: [f64; 2],
     x_ticks: Vec<AxisTick>,
     y_ticks: Vec<AxisTick>,
-    /// Where the period of a fast control loop lies, if it is on the axis.
+    /// Position of the period of a fast control loop, if it is on the axis.
     period: Option<f64>,
     lines: Vec<Line>,
     names: f64,
 }
 
-/// A curve, and where its name stands.
+/// A curve, and the position of its name.
 struct Line {
     path: String,
     end: [f64; 2],
@@ -54,8 +54,8 @@ struct Line {
 }
 
 impl PredictionTimes {
-    /// `figure1.svg`: the time of a prediction against the number of training points, both
-    /// logarithmic, peers dashed, in a drawing that stands alone.
+    /// `figure1.svg`: the time of a prediction against the number of training points as a self-contained drawing,
+    /// both axes logarithmic, peers dashed.
     ///
     /// # Errors
     ///
@@ -133,8 +133,7 @@ fn lines(
     lines
 }
 
-/// Rising places near `wanted`, which rise, at least [`APART`] from each other and above the
-/// lower edge.
+/// Rising positions near the rising positions `wanted`, at least [`APART`] from each other and above the lower edge.
 fn spread(wanted: &[f64], lower: f64) -> Vec<f64> {
     let mut places = wanted.to_vec();
     for i in 1..places.len() {

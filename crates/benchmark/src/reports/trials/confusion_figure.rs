@@ -26,14 +26,14 @@ struct Drawing {
     rows: Vec<DrawnRow>,
 }
 
-/// What was put in, and the cells in its line.
+/// The injected effects, and the cells of their row.
 struct DrawnRow {
     y: f64,
     name: String,
     cells: Vec<DrawnCell>,
 }
 
-/// How often something was named first.
+/// Number of trials in which something was named first.
 struct DrawnCell {
     x: f64,
     width: f64,
@@ -43,8 +43,8 @@ struct DrawnCell {
     words: String,
 }
 
-/// What was named first for what was put in, for a page: the fuller a cell, the larger its share of
-/// the trials of its row.
+/// The first finding against the injected effects, as a drawing for a page. The more opaque a cell, the larger its
+/// share of the trials of its row.
 ///
 /// # Errors
 ///
@@ -100,7 +100,7 @@ pub fn confusion_figure(confusion: &Confusion) -> Result<String, ReportError> {
     drawing.render().map_err(|e| ReportError::Format { format: "SVG", reason: e.to_string() })
 }
 
-/// Of two effects either may be first: no column is theirs.
+/// Either of two injected effects may be named first, so that neither has a column of its own.
 fn colour(
     colours: &Palette,
     injected: TrialGroup,

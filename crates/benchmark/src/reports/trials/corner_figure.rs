@@ -25,11 +25,11 @@ struct Drawing {
     rows: Vec<DrawnRow>,
 }
 
-/// Trials that are alike in one thing.
+/// Trials with one property in common.
 struct DrawnRow {
     y: f64,
     name: String,
-    /// Whether a line tells it from the row above.
+    /// Whether a line separates it from the row above.
     is_first: bool,
     marks: Vec<Mark>,
 }
@@ -43,8 +43,8 @@ struct Mark {
     words: String,
 }
 
-/// How well causes are named and how often a trial is falsely called well, side by side of a population,
-/// for a page: the weakest corner stands out.
+/// Recall of the causes and share of false assurances, side by side of a population, as a drawing for a page that
+/// shows the weakest corner at a glance.
 ///
 /// # Errors
 ///
@@ -104,7 +104,7 @@ fn marks(row: &PanelRow, y: f64, colours: &Palette) -> Vec<Mark> {
     shown.into_iter().enumerate().filter_map(mark).collect()
 }
 
-/// Where a share stands (px).
+/// Position of a share (px).
 fn at(share: f64) -> f64 {
     round_px(SHOWN[0] + (SHOWN[1] - SHOWN[0]) * share)
 }

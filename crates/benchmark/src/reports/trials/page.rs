@@ -26,8 +26,8 @@ struct Page<'a> {
     json: String,
 }
 
-/// `report.html` of blind trials: what was named for what was put in, how often that was right
-/// and how good the sizes are, in one file that opens offline, and without scripts too.
+/// `report.html` of blind trials in one file that opens offline and without scripts: the findings against the
+/// injected effects, the share of right ones, and the errors of the sizes.
 ///
 /// `doubts` are sentences about what is missing.
 ///

@@ -28,9 +28,9 @@ struct Page<'a> {
     json: String,
 }
 
-/// `report.html` of trials of a population: how well causes are named, how often a trial is falsely called
-/// well, what the findings predict, beside two baselines, corner by corner, in one file that opens offline,
-/// and without scripts too.
+/// `report.html` of trials of a population in one file that opens offline and without scripts. It shows, corner by
+/// corner and beside two baselines, how well causes are named, the false assurances, and the predictions with the
+/// findings.
 ///
 /// `doubts` are sentences about what is missing.
 ///

@@ -2,7 +2,7 @@ use pages::{Cell, HtmlGrid, ReportError, render_html};
 
 use crate::statistics::text_table::TextTable;
 
-/// A table of texts for a page; the page tells its title.
+/// A text table for a page, without the title, which the page shows.
 ///
 /// # Errors
 ///
