@@ -22,6 +22,9 @@ fn arm(file: &Path) -> Robot {
     robot(&joints)
 }
 
+/// Folders that hold no recordings: runs without joints by the same names, and files that are damaged on purpose.
+const LEFT_OUT: [&str; 2] = ["lerobot", "faults"];
+
 /// The logs under a folder, those of a folder together.
 fn logs_under(folder: &Path) -> Vec<Vec<PathBuf>> {
     let mut inside: Vec<PathBuf> =
@@ -29,7 +32,8 @@ fn logs_under(folder: &Path) -> Vec<Vec<PathBuf>> {
     inside.sort();
     let own = inside.iter().filter(|p| p.extension().is_some_and(|e| e == "parquet")).cloned();
     let mut all = vec![own.collect::<Vec<_>>()];
-    let inner = inside.iter().filter(|p| p.is_dir() && !p.ends_with("lerobot"));
+    let is_left_out = |folder: &&PathBuf| LEFT_OUT.iter().any(|name| folder.ends_with(name));
+    let inner = inside.iter().filter(|p| p.is_dir()).filter(|folder| !is_left_out(folder));
     all.extend(inner.flat_map(|folder| logs_under(folder)));
     all.retain(|files| !files.is_empty());
     all
