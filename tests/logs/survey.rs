@@ -22,8 +22,10 @@ fn arm(file: &Path) -> Robot {
     robot(&joints)
 }
 
-/// Folders that hold no recordings: runs without joints by the same names, and files that are damaged on purpose.
-const LEFT_OUT: [&str; 2] = ["lerobot", "faults"];
+/// Whether a folder holds other things than runs of named joints: datasets of LeRobot, and files that are damaged on purpose.
+fn is_left_out(folder: &Path) -> bool {
+    folder.ends_with("faults") || folder.join("meta/info.json").is_file()
+}
 
 /// The logs under a folder, those of a folder together.
 fn logs_under(folder: &Path) -> Vec<Vec<PathBuf>> {
@@ -32,8 +34,7 @@ fn logs_under(folder: &Path) -> Vec<Vec<PathBuf>> {
     inside.sort();
     let own = inside.iter().filter(|p| p.extension().is_some_and(|e| e == "parquet")).cloned();
     let mut all = vec![own.collect::<Vec<_>>()];
-    let is_left_out = |folder: &&PathBuf| LEFT_OUT.iter().any(|name| folder.ends_with(name));
-    let inner = inside.iter().filter(|p| p.is_dir()).filter(|folder| !is_left_out(folder));
+    let inner = inside.iter().filter(|path| path.is_dir() && !is_left_out(path));
     all.extend(inner.flat_map(|folder| logs_under(folder)));
     all.retain(|files| !files.is_empty());
     all
