@@ -20,7 +20,7 @@ fn the_schemas_beside_the_scenarios_are_those_of_the_program() {
     ];
     for (kind, name, words) in kinds {
         let answer = run(&workspace(), &["schema", kind]);
-        let file = format!("scenarios/{name}.schema.json");
+        let file = format!("scenarios/schemas/{name}.schema.json");
         let stale =
             format!("stale: cargo run --release -p plumbline-bench -- schema {kind} > {file}");
         assert!(fs::read_to_string(workspace().join(&file)).unwrap() == answer.out, "{stale}");
