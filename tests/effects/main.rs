@@ -90,7 +90,13 @@ fn springy(j: usize) -> Robot {
 fn frame(robot: &Robot) -> Frame {
     let n = robot.joint_count();
     let centre = (0..n).map(|j| 0.1 * j as f64).collect();
-    Frame { rest_speed: vec![0.01; n], centre, reach: vec![1.0; n], resolution: vec![0.0; n] }
+    Frame {
+        rest_speed: vec![0.01; n],
+        centre,
+        reach: vec![1.0; n],
+        resolution: vec![0.0; n],
+        trial_gaps: vec![0.0; n],
+    }
 }
 
 fn scale(robot: &Robot) -> Scale {

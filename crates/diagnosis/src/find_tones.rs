@@ -20,9 +20,9 @@ pub(crate) struct ShapedDesign {
 
 impl ShapedDesign {
     fn new(robot: &Robot, log: &Log) -> Result<Self, DiagnosisError> {
-        let robot = with_best_shapes(robot, log)?;
-        let design = Design::new(&robot, log)?;
-        Ok(Self { robot, design })
+        let shaped = with_best_shapes(robot, log)?;
+        let design = Design::of_shaped(&shaped, log)?;
+        Ok(Self { robot: shaped.robot, design })
     }
 }
 

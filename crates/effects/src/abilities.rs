@@ -10,13 +10,22 @@ use crate::motion::scale::Scale;
 use crate::place::AtJoint;
 use crate::priors::Priors;
 
+/// What may hold the shape of an effect at a joint.
+#[derive(Debug)]
+pub struct ShapedDrive<'a> {
+    /// The drive of the joint.
+    pub drive: &'a mut Actuator,
+    /// Its trial gap (rad or m): a drive has no place for a gap of size zero.
+    pub trial_gap: &'a mut f64,
+}
+
 /// Its columns are not linear in one parameter, the shape. Some trial values of the shape are compared.
 pub trait HasShape {
     /// Trial values for the drive of a joint; empty where the drive has a value already.
     fn shapes(&self, at: AtJoint, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64>;
 
     /// Gives the drive of `joint` the effect with one of its `shapes` and no size.
-    fn set_shape(&self, joint: usize, drive: &mut Actuator, shape: f64);
+    fn set_shape(&self, joint: usize, shaped: ShapedDrive<'_>, shape: f64);
 
     /// Resets the shape to that of the drive `before`, where the effect has kept size zero.
     fn drop_unused_shape(&self, drive: &mut Actuator, before: &Actuator);

@@ -27,7 +27,8 @@ mod traits;
 mod trial_shape;
 
 pub use abilities::{
-    BetweenEncoders, CanBeUnsound, CanHide, HasCadError, HasPlainer, HasShape, IsRare, IsRestricted,
+    BetweenEncoders, CanBeUnsound, CanHide, HasCadError, HasPlainer, HasShape, IsRare,
+    IsRestricted, ShapedDrive,
 };
 pub use any_effect::AnyEffect;
 pub use column::{ColumnPart, EffectColumn};
@@ -45,4 +46,4 @@ pub use place::{AtBase, AtJoint, InLink, Place, TypedPlace};
 pub use priors::Priors;
 pub use quantity::EffectQuantity;
 pub use traits::{Law, Linearity, Location, Relation, RevealedBy, Traits, Weights};
-pub use trial_shape::{TrialShape, trial_shapes, without_unused_shapes};
+pub use trial_shape::{ShapedRobot, TrialShape, trial_shapes, without_unused_shapes};

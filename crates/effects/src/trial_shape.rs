@@ -1,7 +1,7 @@
 use catalogue::EffectKind;
 use robot::Robot;
 
-use crate::abilities::HasShape;
+use crate::abilities::{HasShape, ShapedDrive};
 use crate::column::EffectColumn;
 use crate::hypothesis::Hypothesis;
 use crate::model::{MODELLED, model};
@@ -18,6 +18,32 @@ pub struct TrialShape {
     pub hypothesis: Hypothesis,
     /// The trial value.
     pub shape: f64,
+}
+
+/// A robot in which effects of size zero have a trial shape.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShapedRobot {
+    /// The robot; its efforts are those of the robot without the shapes.
+    pub robot: Robot,
+    /// Trial gap of each joint (rad or m), for [`Frame::trial_gaps`](crate::Frame::trial_gaps); 0 where none is set.
+    pub trial_gaps: Vec<f64>,
+}
+
+impl ShapedRobot {
+    /// The robot with no trial shape yet.
+    pub fn new(robot: Robot) -> Self {
+        let trial_gaps = vec![0.0; robot.joint_count()];
+        Self { robot, trial_gaps }
+    }
+
+    /// Gives the robot an effect with this shape and size zero, which does not change its efforts.
+    pub fn set_shape(&mut self, trial: TrialShape) {
+        let Some((AtJoint(j), effect)) = trial.effect() else { return };
+        if let (Some(link), Some(trial_gap)) = (self.robot.link_mut(j), self.trial_gaps.get_mut(j))
+        {
+            effect.set_shape(j, ShapedDrive { drive: &mut link.actuator, trial_gap }, trial.shape);
+        }
+    }
 }
 
 /// Every trial shape of every effect that this robot could have.
@@ -51,21 +77,15 @@ pub fn without_unused_shapes(mut robot: Robot, nominal: &Robot) -> Robot {
 }
 
 impl TrialShape {
-    /// Gives the robot the effect with this shape and size zero, which does not change its efforts.
-    pub fn set_shape(self, robot: &mut Robot) {
-        let Some((AtJoint(j), effect)) = self.effect() else { return };
-        if let Some(link) = robot.link_mut(j) {
-            effect.set_shape(j, &mut link.actuator, self.shape);
-        }
-    }
-
     /// The columns of the effect with this shape, along a motion of the robot without it.
     pub fn columns(self, motion: &mut RunMotion) -> Vec<EffectColumn> {
         let Some((AtJoint(j), effect)) = self.effect() else { return Vec::new() };
-        let before = motion.drives[j].clone();
-        effect.set_shape(j, &mut motion.drives[j], self.shape);
+        let (drive, gap) = (motion.drives[j].clone(), motion.trial_gaps[j]);
+        let shaped =
+            ShapedDrive { drive: &mut motion.drives[j], trial_gap: &mut motion.trial_gaps[j] };
+        effect.set_shape(j, shaped, self.shape);
         let columns = self.hypothesis.columns(motion);
-        motion.drives[j] = before;
+        (motion.drives[j], motion.trial_gaps[j]) = (drive, gap);
         columns
     }
 

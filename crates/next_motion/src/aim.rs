@@ -1,4 +1,4 @@
-use effects::Hypothesis;
+use effects::{Hypothesis, ShapedRobot};
 use nalgebra::{DMatrix, DVector};
 use robot::Robot;
 
@@ -26,8 +26,8 @@ pub enum Goal {
 /// What is asked of a motion, and of which robot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Question<'a> {
-    /// The robot.
-    pub robot: &'a Robot,
+    /// The robot, as [`with_trial_shapes`](crate::with_trial_shapes) has it.
+    pub shaped: &'a ShapedRobot,
     /// What the motion is wanted for, all of it by the same motion.
     pub goals: Vec<Goal>,
     /// All causes that were named. Those that a goal does not concern have free sizes in it.
@@ -49,11 +49,13 @@ const SUPPOSED_CUTOFF_HZ: f64 = 5.0;
 impl<'a> Question<'a> {
     /// A question before there is any log: without findings, and with a noise of 1 per cent of the
     /// effort limits.
-    pub fn without_logs(robot: &'a Robot, goals: Vec<Goal>) -> Self {
+    pub fn without_logs(shaped: &'a ShapedRobot, goals: Vec<Goal>) -> Self {
         let (share, time_s) = SUPPOSED_NOISE;
-        let noise = efforts(robot).into_iter().map(|effort| (share * effort).powi(2) * time_s);
+        let noise =
+            efforts(&shaped.robot).into_iter().map(|effort| (share * effort).powi(2) * time_s);
         let noise = noise.collect();
-        Self { robot, goals, findings: Vec::new(), noise, cutoff_hz: SUPPOSED_CUTOFF_HZ }
+        let (findings, cutoff_hz) = (Vec::new(), SUPPOSED_CUTOFF_HZ);
+        Self { shaped, goals, findings, noise, cutoff_hz }
     }
     /// All hypotheses of findings and goals, each once.
     pub(crate) fn layout(&self) -> ColumnLayout {
@@ -72,7 +74,7 @@ impl<'a> Question<'a> {
         let noise = self.noise.iter().map(|&n| (n > 0.0 && n.is_finite()).then_some(n));
         let widths = hypotheses
             .iter()
-            .map(|h| h.bounds(self.robot, &effects::Priors::default()).len())
+            .map(|h| h.bounds(&self.shaped.robot, &effects::Priors::default()).len())
             .collect();
         ColumnLayout { hypotheses, widths, noise: noise.collect(), cutoff_hz: self.cutoff_hz }
     }
@@ -140,7 +142,11 @@ impl<'a> Aim<'a> {
             Goal::Determine { finding } => vec![Self::Determine {
                 columns: layout.columns(&[finding]),
                 others: layout.columns(&question.other_findings(finding, finding)),
-                prior: finding.prior(question.robot, &known.scale, &effects::Priors::default()),
+                prior: finding.prior(
+                    &question.shaped.robot,
+                    &known.scale,
+                    &effects::Priors::default(),
+                ),
                 logs: &known.information,
             }],
         }
@@ -155,13 +161,15 @@ impl<'a> Aim<'a> {
         layout: &ColumnLayout,
         known: &Known,
     ) -> Self {
-        let of = |first| known.weights(layout, question.robot, &[&[first], besides].concat());
+        let of =
+            |first| known.weights(layout, &question.shaped.robot, &[&[first], besides].concat());
         let columns = layout.columns(&[truth]);
         let weights = match truth.varies() {
             // No log has shown it yet: half of the level varies.
             Some(level) if level == model => {
                 let mut weights = DVector::zeros(columns.len());
-                weights[0] = VARYING * (friction(question.robot, level) + of(level)[0]).max(0.0);
+                weights[0] =
+                    VARYING * (friction(&question.shaped.robot, level) + of(level)[0]).max(0.0);
                 weights
             }
             _ => of(truth).rows(0, columns.len()).into_owned(),

@@ -101,14 +101,14 @@ pub fn design(
     check(question, logs, settings)?;
     let layout = question.layout();
     let known = match logs {
-        Some(logs) => Known::of_logs(question.robot, &layout, logs)?,
-        None => Known::of_limits(question.robot, &layout),
+        Some(logs) => Known::of_logs(question.shaped, &layout, logs)?,
+        None => Known::of_limits(question.shaped, &layout),
     };
     let search = Search {
-        robot: question.robot,
+        robot: &question.shaped.robot,
         layout: &layout,
         frame: &known.frame,
-        usable: &usable(question.robot),
+        usable: &usable(&question.shaped.robot),
         duration_s: settings.duration_s,
         seed: settings.seed,
     };
@@ -139,7 +139,7 @@ fn check(
     logs: Option<&Prepared>,
     settings: &DesignSettings,
 ) -> Result<(), NextMotionError> {
-    let expected = question.robot.joint_count();
+    let expected = question.shaped.robot.joint_count();
     let wrong =
         |what: String, found: usize| Err(NextMotionError::WrongJoints { what, found, expected });
     if question.goals.is_empty() {
@@ -173,7 +173,7 @@ fn check(
 #[cfg(test)]
 mod tests {
     use catalogue::EffectKind;
-    use effects::{Frame, Hypothesis, Place};
+    use effects::{Frame, Hypothesis, Place, ShapedRobot};
     use robot::Robot;
 
     use super::*;
@@ -184,13 +184,18 @@ mod tests {
         Hypothesis { kind, place: Place::Joint(joint) }
     }
 
-    fn question(robot: &Robot, goal: Goal) -> Question<'_> {
+    /// The robot without trial shapes.
+    fn shaped(robot: &Robot) -> ShapedRobot {
+        ShapedRobot::new(robot.clone())
+    }
+
+    fn question(shaped: &ShapedRobot, goal: Goal) -> Question<'_> {
         let (Goal::Separate { finding, .. } | Goal::Determine { finding }) = goal;
         Question {
-            robot,
+            shaped,
             goals: vec![goal],
             findings: vec![finding],
-            noise: vec![1e-3; robot.joint_count()],
+            noise: vec![1e-3; shaped.robot.joint_count()],
             cutoff_hz: 4.0,
         }
     }
@@ -208,7 +213,7 @@ mod tests {
     fn a_motion_tells_viscous_from_coulomb_friction_and_moves_no_joint_in_vain() {
         let robot = arm();
         let logs = log(&robot, |v| 0.2 * v);
-        let found = design(&question(&robot, friction(1)), Some(&logs), &SHORT).unwrap();
+        let found = design(&question(&shaped(&robot), friction(1)), Some(&logs), &SHORT).unwrap();
         let [prospect] = found.prospects.try_into().unwrap();
         let after = prospect.after.unwrap();
         // The log is 30 s long.
@@ -227,12 +232,13 @@ mod tests {
             robot.link_mut(joint).unwrap().joint.limits.effort = Some(effort);
         }
         let logs = log(&robot, |v| 0.2 * v);
-        let found = design(&question(&robot, friction(1)), Some(&logs), &SHORT).unwrap();
+        let found = design(&question(&shaped(&robot), friction(1)), Some(&logs), &SHORT).unwrap();
         let frame = Frame {
             rest_speed: vec![1e-3; 2],
             centre: vec![0.0; 2],
             reach: vec![1.0; 2],
             resolution: vec![0.0; 2],
+            trial_gaps: vec![0.0; 2],
         };
         let motion = found.motion.unwrap().motion;
         let along = MotionRecord::of_motion(&motion, 500.0).evaluate(&robot, &frame);
@@ -245,8 +251,8 @@ mod tests {
     /// Before there is a log: the motion is worth something, a log nothing.
     #[test]
     fn a_pair_is_told_apart_without_logs_at_supposed_sizes() {
-        let robot = arm();
-        let question = Question::without_logs(&robot, vec![friction(1)]);
+        let shaped = ShapedRobot::new(arm());
+        let question = Question::without_logs(&shaped, vec![friction(1)]);
         let found = design(&question, None, &SHORT).unwrap();
         let [prospect] = found.prospects.try_into().unwrap();
         assert!(prospect.before <= 0.0 && prospect.after > Some(SEPARATING_NATS), "{prospect:?}");
@@ -260,7 +266,8 @@ mod tests {
         let with = |threads: usize, seed: u64| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let settings = DesignSettings { seed, ..SHORT };
-            pool.install(|| design(&question(&robot, friction(0)), Some(&logs), &settings)).unwrap()
+            pool.install(|| design(&question(&shaped(&robot), friction(0)), Some(&logs), &settings))
+                .unwrap()
         };
         let one = with(1, 3);
         assert_eq!(one, with(3, 3));
@@ -274,7 +281,8 @@ mod tests {
             finding: Hypothesis { kind: EffectKind::Payload, place: Place::Link(1) },
             rival: Hypothesis { kind: EffectKind::InertialParameters, place: Place::Link(1) },
         };
-        let found = design(&question(&robot, goal), Some(&log(&robot, |_| 0.3)), &SHORT).unwrap();
+        let found =
+            design(&question(&shaped(&robot), goal), Some(&log(&robot, |_| 0.3)), &SHORT).unwrap();
         assert!(found.motion.is_none() && found.prospects[0].after.is_none());
         assert_eq!(found.prospects[0].runs(), None);
     }
@@ -286,7 +294,7 @@ mod tests {
         let logs = log(&robot, |v| 0.2 * v);
         let finding = at(EffectKind::ViscousFriction, 0);
         let goal = Goal::Determine { finding };
-        let found = design(&question(&robot, goal), Some(&logs), &SHORT).unwrap();
+        let found = design(&question(&shaped(&robot), goal), Some(&logs), &SHORT).unwrap();
         let qd = &logs.runs[0].joints[0].qd;
         let power = qd.iter().map(|v| v * v).sum::<f64>() / RATE_HZ / 1e-3;
         let s = finding.prior(
@@ -307,7 +315,7 @@ mod tests {
             robot.link_mut(joint).unwrap().joint.limits.effort = Some(1e-3);
         }
         let logs = log(&robot, |v| 0.2 * v);
-        let found = design(&question(&robot, friction(1)), Some(&logs), &SHORT);
+        let found = design(&question(&shaped(&robot), friction(1)), Some(&logs), &SHORT);
         assert!(matches!(found, Err(NextMotionError::TooHeavy { share }) if share > 1.0));
     }
 
@@ -315,7 +323,8 @@ mod tests {
     fn questions_that_cannot_be_answered_are_refused() {
         let robot = turntable();
         let logs = log(&robot, |v| v);
-        let whole = question(&robot, friction(0));
+        let shaped = shaped(&robot);
+        let whole = question(&shaped, friction(0));
         let refused = |question: Question, logs: &Prepared, settings: DesignSettings| {
             design(&question, Some(logs), &settings).unwrap_err().to_string()
         };

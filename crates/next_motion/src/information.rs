@@ -248,6 +248,7 @@ mod tests {
             centre: vec![0.0],
             reach: vec![1.0],
             resolution: vec![0.0],
+            trial_gaps: vec![0.0],
         };
         let at = |kind| Hypothesis { kind, place: Place::Joint(0) };
         let layout = ColumnLayout {

@@ -1,4 +1,4 @@
-use effects::{Frame, Hypothesis, Scale};
+use effects::{Frame, Hypothesis, Scale, ShapedRobot};
 use logs::{LowPass, Prepared, PreparedJoint};
 use nalgebra::DVector;
 use robot::Robot;
@@ -35,20 +35,21 @@ enum Source {
 impl Known {
     /// From logs.
     pub fn of_logs(
-        robot: &Robot,
+        shaped: &ShapedRobot,
         layout: &ColumnLayout,
         logs: &Prepared,
     ) -> Result<Self, NextMotionError> {
+        let (robot, trial_gaps) = (&shaped.robot, shaped.trial_gaps.clone());
         let scale = Scale::of_logs(robot, logs);
         let rest_speed = scale.speed.iter().map(|speed| REST_SHARE * speed).collect();
-        let frame = Frame { rest_speed, ..Frame::of_logs(logs) };
+        let frame = Frame { rest_speed, trial_gaps, ..Frame::of_logs(logs) };
         let information = along_logs(robot, layout, &frame, logs)?;
         Ok(Self { frame, scale, information, source: Source::Logs })
     }
 
     /// From the limits of the joints, before there is any log.
-    pub fn of_limits(robot: &Robot, layout: &ColumnLayout) -> Self {
-        let usable = usable(robot);
+    pub fn of_limits(shaped: &ShapedRobot, layout: &ColumnLayout) -> Self {
+        let usable = usable(&shaped.robot);
         let each = |of: fn(&Usable) -> f64| usable.iter().map(of).collect::<Vec<f64>>();
         Self {
             frame: Frame {
@@ -56,8 +57,9 @@ impl Known {
                 centre: each(|u| u.middle),
                 reach: each(|u| u.half),
                 resolution: vec![0.0; usable.len()],
+                trial_gaps: shaped.trial_gaps.clone(),
             },
-            scale: scale_of_limits(robot),
+            scale: scale_of_limits(&shaped.robot),
             information: layout.no_information(),
             source: Source::Limits,
         }
@@ -141,12 +143,14 @@ mod tests {
             noise: vec![Some(1e-6)],
             cutoff_hz: 4.0,
         };
-        let of_logs = Known::of_logs(&robot, &layout, &log(&robot, |v| 0.2 * v)).unwrap();
-        let found = of_logs.weights(&layout, &robot, &[cause]);
+        let shaped = ShapedRobot::new(robot);
+        let robot = &shaped.robot;
+        let of_logs = Known::of_logs(&shaped, &layout, &log(robot, |v| 0.2 * v)).unwrap();
+        let found = of_logs.weights(&layout, robot, &[cause]);
         assert!((found[0] - 0.2).abs() < 1e-4, "{found}");
         // Without logs, a tenth of the effort limit at the largest usable speed.
-        let of_limits = Known::of_limits(&robot, &layout);
-        let found = of_limits.weights(&layout, &robot, &[cause]);
+        let of_limits = Known::of_limits(&shaped, &layout);
+        let found = of_limits.weights(&layout, robot, &[cause]);
         assert!((found[0] - 0.1 * 50.0 / 2.4).abs() < 1e-12, "{found}");
         assert!(of_limits.information.xx.iter().all(|x| x.abs() <= 0.0));
     }

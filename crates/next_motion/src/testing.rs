@@ -63,6 +63,7 @@ pub(crate) fn log(robot: &Robot, extra: impl Fn(f64) -> f64) -> Prepared {
         centre: vec![0.0; joints],
         reach: vec![1.0; joints],
         resolution: vec![0.0; joints],
+        trial_gaps: vec![0.0; joints],
     };
     let motion = MotionRecord::of_run(&run, 1).evaluate(robot, &frame);
     for (joint, effort) in run.joints.iter_mut().zip(&motion.effort) {

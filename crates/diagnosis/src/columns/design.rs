@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use effects::{Frame, Hypothesis, Priors, Scale, hypotheses};
+use effects::{Frame, Hypothesis, Priors, Scale, ShapedRobot, hypotheses};
 use logs::LogError;
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -67,13 +67,27 @@ struct MotionAndReadings<'a> {
 impl Design {
     /// Evaluates every hypothesis about `robot` along the prepared runs.
     pub fn new(robot: &Robot, log: &Log) -> Result<Self, LogError> {
-        let all: Vec<_> = hypotheses(robot).into_iter().filter(|h| log.includes(*h)).collect();
-        Self::of(robot, log, &all)
+        Self::of(robot, log, &included(robot, log))
     }
 
     /// Evaluates the given hypotheses about `robot` along the prepared runs.
     pub fn of(robot: &Robot, log: &Log, hypotheses: &[Hypothesis]) -> Result<Self, LogError> {
-        let frame = Frame::of_logs(log.prepared);
+        Self::within(Frame::of_logs(log.prepared), robot, log, hypotheses)
+    }
+
+    /// Evaluates every hypothesis about a robot with trial shapes along the prepared runs.
+    pub fn of_shaped(shaped: &ShapedRobot, log: &Log) -> Result<Self, LogError> {
+        let trial_gaps = shaped.trial_gaps.clone();
+        let frame = Frame { trial_gaps, ..Frame::of_logs(log.prepared) };
+        Self::within(frame, &shaped.robot, log, &included(&shaped.robot, log))
+    }
+
+    fn within(
+        frame: Frame,
+        robot: &Robot,
+        log: &Log,
+        hypotheses: &[Hypothesis],
+    ) -> Result<Self, LogError> {
         let along = log.along(robot, &frame)?;
         let readings: Vec<Readings> = along
             .par_iter()
@@ -223,4 +237,9 @@ impl Design {
     pub fn find(&self, h: Hypothesis) -> Option<usize> {
         self.groups.iter().position(|g| g.hypothesis == h)
     }
+}
+
+/// The hypotheses about a robot that a design of some logs includes.
+fn included(robot: &Robot, log: &Log) -> Vec<Hypothesis> {
+    hypotheses(robot).into_iter().filter(|h| log.includes(*h)).collect()
 }

@@ -1,7 +1,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use catalogue::EffectKind;
-use effects::{EffectColumn, Frame, Hypothesis, Scale, TrialShape, trial_shapes};
+use effects::{EffectColumn, Frame, Hypothesis, Scale, ShapedRobot, TrialShape, trial_shapes};
 use logs::LogError;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use rayon::prelude::*;
@@ -25,7 +25,7 @@ const AT_ONCE: usize = 8;
 /// ```
 ///
 /// summed over the joints that the shape reaches, each weighted by the inverse power of its `r`.
-pub(crate) fn with_best_shapes(robot: &Robot, log: &Log) -> Result<Robot, LogError> {
+pub(crate) fn with_best_shapes(robot: &Robot, log: &Log) -> Result<ShapedRobot, LogError> {
     let (prepared, moved) = (log.prepared, log.moved);
     let relevant = |g: &TrialShape| {
         let looked_for = !log.without.contains(&g.hypothesis.kind);
@@ -59,8 +59,8 @@ pub(crate) fn with_best_shapes(robot: &Robot, log: &Log) -> Result<Robot, LogErr
             *known = (explained, shape);
         }
     }
-    let mut shaped = robot.clone();
-    best.into_values().for_each(|(_, shape)| shape.set_shape(&mut shaped));
+    let mut shaped = ShapedRobot::new(robot.clone());
+    best.into_values().for_each(|(_, shape)| shaped.set_shape(shape));
     Ok(shaped)
 }
 

@@ -1,7 +1,7 @@
 use catalogue::EffectKind;
 use robot::{Actuator, Robot};
 
-use crate::abilities::{BetweenEncoders, HasShape};
+use crate::abilities::{BetweenEncoders, HasShape, ShapedDrive};
 use crate::bounds::down_to_zero;
 use crate::column::{EffectColumn, at_joint};
 use crate::effect::Effect;
@@ -113,13 +113,12 @@ impl HasShape for Backlash {
         if known { Vec::new() } else { TRIALS.to_vec() }
     }
 
-    fn set_shape(&self, _: usize, drive: &mut Actuator, shape: f64) {
-        drive.backlash_trial = shape;
+    fn set_shape(&self, _: usize, shaped: ShapedDrive<'_>, shape: f64) {
+        *shaped.trial_gap = shape;
     }
 
-    fn drop_unused_shape(&self, drive: &mut Actuator, before: &Actuator) {
-        drive.backlash_trial = before.backlash_trial;
-    }
+    /// A trial gap is no part of the drive.
+    fn drop_unused_shape(&self, _: &mut Actuator, _: &Actuator) {}
 }
 
 impl BetweenEncoders for Backlash {
@@ -135,7 +134,7 @@ impl BetweenEncoders for Backlash {
 fn play_per_gap(motion: &RunMotion, j: usize, carried: LoadAlong<'_>) -> Vec<f64> {
     let drive = &motion.drives[j];
     let at = |gap: f64| play(carried, Gap::of(drive, gap), motion.period_s);
-    let Actuator { backlash: gap, backlash_trial: trial, .. } = *drive;
+    let (gap, trial) = (drive.backlash, motion.trial_gaps[j]);
     if gap > 0.0 {
         let (wide, narrow) = (at((1.0 + STEP) * gap), at((1.0 - STEP) * gap));
         wide.iter().zip(narrow).map(|(w, n)| (w - n) / (2.0 * STEP * gap)).collect()

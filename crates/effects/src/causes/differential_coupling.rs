@@ -1,7 +1,7 @@
 use catalogue::EffectKind;
 use robot::{Actuator, Coupling, Robot};
 
-use crate::abilities::{HasShape, IsRare};
+use crate::abilities::{HasShape, IsRare, ShapedDrive};
 use crate::bounds::down_to_zero;
 use crate::column::{ColumnPart, EffectColumn};
 use crate::effect::Effect;
@@ -194,9 +194,9 @@ impl HasShape for DifferentialCoupling {
         if alike && !known { RATIOS.to_vec() } else { Vec::new() }
     }
 
-    fn set_shape(&self, joint: usize, drive: &mut Actuator, shape: f64) {
+    fn set_shape(&self, joint: usize, shaped: ShapedDrive<'_>, shape: f64) {
         let nothing = [0.0; 2];
-        drive.coupling =
+        shaped.drive.coupling =
             Some(Coupling { other: joint + 1, ratio: shape, level: nothing, viscous: nothing });
     }
 

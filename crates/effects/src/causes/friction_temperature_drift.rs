@@ -1,7 +1,7 @@
 use catalogue::EffectKind;
 use robot::{Actuator, Robot, Warming};
 
-use crate::abilities::{CanBeUnsound, HasShape};
+use crate::abilities::{CanBeUnsound, HasShape, ShapedDrive};
 use crate::bounds::down_to_zero;
 use crate::column::{EffectColumn, at_joint};
 use crate::effect::Effect;
@@ -188,9 +188,9 @@ impl HasShape for FrictionTemperatureDrift {
             .collect()
     }
 
-    fn set_shape(&self, _: usize, drive: &mut Actuator, shape: f64) {
+    fn set_shape(&self, _: usize, shaped: ShapedDrive<'_>, shape: f64) {
         let (viscous_lost, coulomb_lost) = (0.0, 0.0);
-        drive.warming = Some(Warming { viscous_lost, coulomb_lost, time_constant_s: shape });
+        shaped.drive.warming = Some(Warming { viscous_lost, coulomb_lost, time_constant_s: shape });
     }
 
     fn drop_unused_shape(&self, drive: &mut Actuator, before: &Actuator) {

@@ -4,7 +4,7 @@ use catalogue::EffectKind;
 use nalgebra::Complex;
 use robot::{Actuator, FrictionWave, Robot};
 
-use crate::abilities::{CanBeUnsound, CanHide, HasShape};
+use crate::abilities::{CanBeUnsound, CanHide, HasShape, ShapedDrive};
 use crate::bounds::infinite_bounds;
 use crate::column::{EffectColumn, at_joint};
 use crate::effect::{EASED_LEVEL, Effect};
@@ -182,8 +182,8 @@ impl HasShape for PositionDependentFriction {
         (0..count).map(|k| priors.wave_fewest_periods + k as f64 * step).collect()
     }
 
-    fn set_shape(&self, _: usize, drive: &mut Actuator, shape: f64) {
-        drive.friction_wave = Some(FrictionWave { share: 0.0, periods: shape, phase: 0.0 });
+    fn set_shape(&self, _: usize, shaped: ShapedDrive<'_>, shape: f64) {
+        shaped.drive.friction_wave = Some(FrictionWave { share: 0.0, periods: shape, phase: 0.0 });
     }
 
     fn drop_unused_shape(&self, drive: &mut Actuator, before: &Actuator) {

@@ -1,7 +1,7 @@
 use catalogue::EffectKind;
 use robot::{Actuator, Robot, Stribeck};
 
-use crate::abilities::{CanBeUnsound, CanHide, HasPlainer, HasShape};
+use crate::abilities::{CanBeUnsound, CanHide, HasPlainer, HasShape, ShapedDrive};
 use crate::bounds::down_to_zero;
 use crate::column::{EffectColumn, at_joint};
 use crate::effect::{EASED_LEVEL, Effect};
@@ -169,8 +169,8 @@ impl HasShape for StribeckFriction {
         if known || speed <= 0.0 { Vec::new() } else { SHARES.map(|s| s * speed).to_vec() }
     }
 
-    fn set_shape(&self, _: usize, drive: &mut Actuator, shape: f64) {
-        drive.stribeck = Some(Stribeck { excess: 0.0, velocity: shape });
+    fn set_shape(&self, _: usize, shaped: ShapedDrive<'_>, shape: f64) {
+        shaped.drive.stribeck = Some(Stribeck { excess: 0.0, velocity: shape });
     }
 
     fn drop_unused_shape(&self, drive: &mut Actuator, before: &Actuator) {

@@ -12,17 +12,21 @@ pub struct Frame {
     /// Change of position that the logs resolve (rad or m): the step of the encoder, or two standard deviations of
     /// its noise below four times the cut-off, whichever is larger.
     pub resolution: Vec<f64>,
+    /// Trial gap of each joint (rad or m), about which the column of a drive without a gap is taken; 0 where none is set.
+    /// [`ShapedRobot`](crate::ShapedRobot) has the best ones.
+    pub trial_gaps: Vec<f64>,
 }
 
 impl Frame {
-    /// The reference values of some logs.
+    /// The reference values of some logs, without trial gaps.
     pub fn of_logs(logs: &Prepared) -> Self {
         let rest_speed = rest_speeds(logs);
         let spans = (0..rest_speed.len()).map(|j| logs.span(j));
         let (centre, reach) =
             spans.map(|(low, high)| (0.5 * (low + high), 0.5 * (high - low))).unzip();
         let resolution = logs.noise.iter().map(|noise| resolution(noise, logs.cutoff_hz)).collect();
-        Self { rest_speed, centre, reach, resolution }
+        let trial_gaps = vec![0.0; rest_speed.len()];
+        Self { rest_speed, centre, reach, resolution, trial_gaps }
     }
 }
 

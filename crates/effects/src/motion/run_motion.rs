@@ -58,6 +58,8 @@ pub struct RunMotion {
     robot: Robot,
     /// The drives of the nominal robot.
     pub(crate) drives: Vec<Actuator>,
+    /// Trial gap of each joint (rad or m); 0 where none is set.
+    pub(crate) trial_gaps: Vec<f64>,
     /// Load of the links along the measured motion; `None` where motors and links move as one.
     rigid_load: Option<Vec<Vec<f64>>>,
     /// One for each joint; `None` without a spring between its encoder and its link.
@@ -127,6 +129,7 @@ impl RunMotion {
             slopes: OnceLock::new(),
             robot: robot.clone(),
             drives,
+            trial_gaps: frame.trial_gaps.clone(),
             rigid_load,
             compliances,
         };

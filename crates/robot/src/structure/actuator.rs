@@ -213,9 +213,6 @@ pub struct Actuator {
     pub torque_offset: f64,
     /// Free play between motor and link, full width (rad or m).
     pub backlash: f64,
-    /// Play for which a diagnosis works out what one would do in a drive that has none (rad or m);
-    /// of no account where there is one, and 0 in a description.
-    pub backlash_trial: f64,
     /// Stiffness of the transmission (N·m/rad or N/m); `None` for a rigid one.
     pub elasticity: Option<f64>,
     /// Time from command to torque (s).
@@ -297,7 +294,6 @@ impl Default for Actuator {
             torque_gain: 1.0,
             torque_offset: 0.0,
             backlash: 0.0,
-            backlash_trial: 0.0,
             elasticity: None,
             delay_s: 0.0,
             lag_s: 0.0,

@@ -190,6 +190,7 @@ pub fn run_of(robot: &Robot, designed: &DesignedMotion, rate_hz: f64) -> Run {
         centre: vec![0.0; joints],
         reach: vec![1.0; joints],
         resolution: vec![0.0; joints],
+        trial_gaps: vec![0.0; joints],
     };
     let along = Along::new(robot, &frame, [q.clone(), qd.clone(), qdd.clone()], rate_hz.recip());
     let channels = |(j, name): (usize, &str)| Channels {

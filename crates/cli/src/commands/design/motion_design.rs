@@ -40,18 +40,19 @@ impl MotionDesign {
     ///
     /// [`CliError::Design`] where there is nothing to settle or a cause has no place, and what the logs refuse.
     pub fn new(request: &MotionRequest) -> Result<Self, CliError> {
-        let robot = next_motion::with_trial_shapes(&request.loaded.robot);
+        let shaped = next_motion::with_trial_shapes(&request.loaded.robot);
+        let robot = &shaped.robot;
         let goals = match request.separate {
             None => Vec::new(),
-            Some(pair) => vec![goal_of_pair(pair, &robot)?],
+            Some(pair) => vec![goal_of_pair(pair, robot)?],
         };
         let (question, logs) = match request.diagnosed {
-            None => (Question::without_logs(&robot, goals), None),
+            None => (Question::without_logs(&shaped, goals), None),
             Some((diagnosis, runs)) => {
                 let question = Question {
-                    robot: &robot,
-                    goals: if goals.is_empty() { diagnosis.goals(&robot)? } else { goals },
-                    findings: diagnosis.findings(&robot)?,
+                    shaped: &shaped,
+                    goals: if goals.is_empty() { diagnosis.goals(robot)? } else { goals },
+                    findings: diagnosis.findings(robot)?,
                     noise: diagnosis.noise(),
                     cutoff_hz: diagnosis.cutoff_hz(),
                 };
@@ -63,9 +64,9 @@ impl MotionDesign {
         };
         let design = next_motion::design(&question, logs.as_ref(), &request.settings);
         let design = design.map_err(DesignError::from)?;
-        let text = files::words(&design, &robot, logs.as_ref());
+        let text = files::words(&design, robot, logs.as_ref());
         let rate_hz = rate_hz(request.loaded, logs.as_ref());
-        Ok(Self { robot, design, text, rate_hz })
+        Ok(Self { robot: shaped.robot, design, text, rate_hz })
     }
 
     /// What the motion is for and what it brings, goal by goal.
