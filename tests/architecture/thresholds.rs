@@ -1,5 +1,5 @@
 //! Numbers that decide an answer are fields of the thresholds, where a test can vary one: a constant of a number in the
-//! crates that decide is purely numerical, and has its reason here.
+//! crates that decide is purely numerical, and has its reason here. So is a number inside a function that judges logs.
 
 use std::collections::BTreeSet;
 
@@ -101,6 +101,36 @@ const NUMERICAL: &[(&str, &str, &str, &str)] = &[
     ("inspection", "sentence", "MOST_STRETCHES", "length of a list in a sentence"),
 ];
 
+/// Where functions judge logs by numbers, and the crate that each is of.
+const JUDGING: [(&str, &str); 5] = [
+    ("diagnosis", "crates/diagnosis/src/oscillations"),
+    ("diagnosis", "crates/diagnosis/src/outcome"),
+    ("diagnosis", "crates/diagnosis/src/readiness"),
+    ("diagnosis", "crates/diagnosis/src/search"),
+    ("inspection", "crates/inspection/src"),
+];
+
+/// Numbers that stand in any formula: signs, halves, squares, degrees in half a turn, per cents, thousands.
+const IN_FORMULAS: [f64; 7] = [0.0, 0.5, 1.0, 2.0, 100.0, 180.0, 1e3];
+
+/// Largest number that only keeps rounding from counting.
+const ROUNDING: f64 = 1e-6;
+
+/// Other numbers inside functions that no answer hangs on, by the names of crate, file and number, and why.
+const IN_FUNCTIONS: &[(&str, &str, &str, &str)] = &[
+    ("diagnosis", "limits", "1.5", "growth of the steps of a search"),
+    ("diagnosis", "limits", "1e-4", "tolerance of an iteration, and first step of a search"),
+    ("diagnosis", "limits", "3.0", "thirds of a bracket"),
+    ("diagnosis", "size", "0.001", "digits of a printed number"),
+    ("diagnosis", "spectrum", "0.375", "mean square of a Hann window"),
+    ("diagnosis", "tones", "0.1", "refinement of a grid"),
+    ("diagnosis", "tones", "0.25", "spacing of a grid, which is refined"),
+    ("diagnosis", "tones", "4.0", "number of points of that grid"),
+    ("inspection", "motion_samples", "0.45", "keeps a cut-off below half the rate"),
+    ("inspection", "sentence", "1e-2", "digits of a printed number"),
+    ("inspection", "sentence", "1e5", "digits of a printed number"),
+];
+
 /// Names of the constants of a number in the product's part of a file.
 fn numbers(text: &str) -> Vec<&str> {
     let product = text.split("#[cfg(test)]").next().unwrap_or_default();
@@ -123,6 +153,53 @@ fn numbers(text: &str) -> Vec<&str> {
         (is_constant && is_number && !is_text).then_some((at, at + name.len()))
     };
     product.lines().filter_map(|line| name(line).map(|(from, to)| &line[from..to])).collect()
+}
+
+/// The product's part of a file without constants, comments and texts.
+fn code(text: &str) -> String {
+    let product = text.split("#[cfg(test)]").next().unwrap_or_default();
+    let mut in_constant = false;
+    let is_code = |line: &&str| {
+        let start = line.trim_start();
+        let start =
+            start.strip_prefix("pub ").or(start.strip_prefix("pub(crate) ")).unwrap_or(start);
+        let begins = start.starts_with("const ") && !start.starts_with("const fn");
+        let is_code = !in_constant && !begins && !start.starts_with("//");
+        in_constant = (in_constant || begins) && !line.trim_end().ends_with(';');
+        is_code
+    };
+    let lines = product.lines().filter(is_code).collect::<Vec<_>>().join("\n");
+    let lines = lines.replace("\\\"", "").replace("'\"'", "");
+    lines.split('"').step_by(2).collect::<Vec<_>>().join("\"\"")
+}
+
+/// The decimal numbers of some code, as they are written.
+fn decimals(code: &str) -> Vec<&str> {
+    let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '.';
+    let bytes = code.as_bytes();
+    let mut all = Vec::new();
+    let mut at = 0;
+    while let Some(start) = code[at..].find(|c: char| c.is_ascii_digit()).map(|found| at + found) {
+        let digits =
+            |from: usize| from + bytes[from..].iter().take_while(|b| b.is_ascii_digit()).count();
+        let is_digit = |k: usize| bytes.get(k).is_some_and(u8::is_ascii_digit);
+        let mut end = digits(start);
+        if bytes.get(end) == Some(&b'.') && is_digit(end + 1) {
+            end = digits(end + 1);
+        }
+        if bytes.get(end) == Some(&b'e') {
+            let power = end + 1 + usize::from(bytes.get(end + 1) == Some(&b'-'));
+            end = if is_digit(power) { digits(power) } else { end };
+        }
+        let is_own = !code[..start].ends_with(|c: char| is_part(c) && c != '.')
+            && (!code[..start].ends_with('.') || code[..start].ends_with(".."));
+        let number = &code[start..end];
+        if is_own && number.contains(['.', 'e']) {
+            all.push(number);
+        }
+        at = end;
+    }
+    all
 }
 
 /// The name of a file without its folder and ending.
@@ -166,6 +243,47 @@ fn a_numerical_constant_that_is_gone_is_not_listed() {
     let gone = known().into_iter().filter(|constant| !constants.contains(constant));
     let broken = gone.map(|(name, file, number)| format!("{name}: no {number} in {file}.rs"));
     assert_kept(&broken.collect::<Vec<_>>());
+}
+
+/// Crate, file and number of every decimal number that stands in no formula, of the functions that judge logs.
+fn in_functions() -> BTreeSet<(String, String, String)> {
+    let mut all = BTreeSet::new();
+    for (name, folder) in JUDGING {
+        let files = rust_files(folder);
+        for file in files.iter().filter(|file| !["testing", "thresholds"].contains(&stem(file))) {
+            let code = code(&text(file));
+            let decides = |number: &&str| {
+                let value: f64 = number.parse().unwrap_or(f64::NAN);
+                let is_in_formula = |known: &f64| known.total_cmp(&value).is_eq();
+                value > ROUNDING && !IN_FORMULAS.iter().any(is_in_formula)
+            };
+            let numbers = decimals(&code).into_iter().filter(decides);
+            all.extend(numbers.map(|n| (name.to_owned(), stem(file).to_owned(), n.to_owned())));
+        }
+    }
+    all
+}
+
+#[test]
+fn a_number_inside_a_function_that_judges_logs_is_a_threshold() {
+    let entry =
+        |&(a, b, c, _): &(&str, &str, &str, &str)| (a.to_owned(), b.to_owned(), c.to_owned());
+    let known: BTreeSet<_> = IN_FUNCTIONS.iter().map(entry).collect();
+    let found = in_functions();
+    let unknown = found.difference(&known).map(|(name, file, number)| {
+        format!("{name}: {number} inside {file}.rs decides and is no field of a threshold")
+    });
+    let gone = known
+        .difference(&found)
+        .map(|(name, file, number)| format!("{name}: no {number} inside {file}.rs"));
+    assert_kept(&unknown.chain(gone).collect::<Vec<_>>());
+}
+
+#[test]
+fn decimal_numbers_of_functions_are_seen_and_texts_and_constants_are_not() {
+    let text = "const A: f64 = 1.5;\npub const B: [f64; 2] = [\n    2.5,\n];\n// 3.5\nlet x = 4.5 * y.0 + z1.0;\n\
+                f(\"5.5 \\\" 6.5\", 7e-3, 8, '\"', 9.0_f64, 0..10);\n#[cfg(test)]\nlet x = 11.5;";
+    assert_eq!(decimals(&code(text)), ["4.5", "7e-3", "9.0"]);
 }
 
 #[test]

@@ -16,8 +16,9 @@ pub(crate) fn another_robot(judge: &Judge, runs: usize) -> Option<Observation> {
     let (with, without) = (shares(t.exact_gain), shares([0.0, 0.0]));
     let n = with.len();
     let against = |shares: &[f64]| -> Vec<usize> {
-        let least =
-            |j: usize| t.contradicted.max(4.0 * judge.floors[j]).max(4.0 * judge.model_floor(j));
+        let least = |j: usize| {
+            t.contradicted.max(t.above_floor * judge.floors[j].max(judge.model_floor(j)))
+        };
         (0..n)
             .filter(|&j| shares[j] > least(j) && shares[j] > t.contradicted_by * without[j])
             .collect()
@@ -27,7 +28,7 @@ pub(crate) fn another_robot(judge: &Judge, runs: usize) -> Option<Observation> {
     };
     let is_foreign = |shares: &[f64]| {
         let against = against(shares).len();
-        against >= t.fewest_contradicted && 3 * agrees(shares) <= against
+        against >= t.fewest_contradicted && t.against_agreeing * agrees(shares) <= against
     };
     if !is_foreign(&with)
         || !shares_with_a_tool(judge, judge.exact_drive()).is_none_or(|tool| is_foreign(&tool))

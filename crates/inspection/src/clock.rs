@@ -4,6 +4,7 @@ use crate::judge::Judge;
 use crate::log_reading::LogReading;
 use crate::motion_samples::MotionSamples;
 use crate::observation::{Observation, ObservationKind, Rival, Spoils};
+use crate::thresholds::InspectionThresholds;
 
 /// A velocity column against the derivative of its position.
 #[derive(Debug, Clone, Copy)]
@@ -14,14 +15,16 @@ struct Slope {
     correlation: f64,
 }
 
-fn slopes(samples: &MotionSamples, least: f64) -> Vec<Slope> {
+fn slopes(samples: &MotionSamples, t: &InspectionThresholds) -> Vec<Slope> {
     let of = |joint: usize| {
         let v = samples.column(&samples.velocity, joint);
         let d = samples.column(&samples.motion[1], joint);
         let pairs: Vec<(f64, f64)> = v.into_iter().zip(d).filter(|(v, _)| v.is_finite()).collect();
         let sum = |f: fn(&(f64, f64)) -> f64| pairs.iter().map(f).sum::<f64>();
         let (vv, vd, dd) = (sum(|p| p.0 * p.0), sum(|p| p.0 * p.1), sum(|p| p.1 * p.1));
-        let alike = vd.abs() > least * (vv * dd).sqrt() && dd > 0.0 && pairs.len() > 30;
+        let alike = vd.abs() > t.velocity_correlation * (vv * dd).sqrt()
+            && dd > 0.0
+            && pairs.len() > t.enough_rows;
         alike.then_some(Slope { joint, factor: vd / dd, correlation: vd.abs() / (vv * dd).sqrt() })
     };
     (0..samples.joints).filter_map(of).collect()
@@ -31,7 +34,7 @@ fn slopes(samples: &MotionSamples, least: f64) -> Vec<Slope> {
 /// velocity. A wrong clock is corrected for the tests that follow.
 pub(crate) fn clock(robot: &Robot, judge: &mut Judge, runs: usize) -> Vec<Observation> {
     let t = judge.thresholds;
-    let slopes = slopes(&judge.samples, t.velocity_correlation);
+    let slopes = slopes(&judge.samples, t);
     let observation = |kind, joints, spoils, or| Observation {
         kind,
         or,
@@ -63,7 +66,7 @@ pub(crate) fn clock(robot: &Robot, judge: &mut Judge, runs: usize) -> Vec<Observ
     };
     let same = sizes.iter().all(|s| (s / factor - 1.0).abs() < t.same_velocity_factor);
     let closely = slopes.iter().all(|s| s.correlation > t.close_velocity_correlation);
-    let is_close = factor > 0.75 && factor < 1.33;
+    let is_close = factor > t.close_velocity[0] && factor < t.close_velocity[1];
     if is_close && !closely {
         return all;
     }

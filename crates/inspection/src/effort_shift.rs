@@ -18,7 +18,7 @@ pub(crate) fn effort_shift(
     runs: usize,
 ) -> Option<Observation> {
     let (step_s, shortest) = thinned.spacing()?;
-    let reach = ((t.longest_shift_s / step_s) as usize).min(shortest / 4);
+    let reach = ((t.longest_shift_s / step_s) as usize).min(shortest / t.piece_of_shifts);
     let mut judge = Judge::new(robot, t, thinned.samples(reach, 0));
     let as_is = judge.as_is();
     let mut best: Option<(f64, isize, Vec<f64>)> = None;

@@ -5,7 +5,7 @@ use robot::Robot;
 
 use crate::observation::{Observation, ObservationKind, RunStretch};
 use crate::pieces::usual_step;
-use crate::thresholds::InspectionThresholds;
+use crate::thresholds::{InspectionThresholds, MomentThresholds};
 
 /// Signals that stand still while time goes on, and the rows that they spoil.
 ///
@@ -18,7 +18,9 @@ pub(crate) fn frozen(
     t: &InspectionThresholds,
 ) -> (Vec<Observation>, Vec<Range<usize>>) {
     let usual = usual_step(&run.time);
-    let rows = |s: f64| if usual > 0.0 { ((s / usual) as usize).max(10) } else { usize::MAX };
+    let rows = |s: f64| {
+        if usual > 0.0 { ((s / usual) as usize).max(t.moments.held_rows) } else { usize::MAX }
+    };
     let mut spoilt = Vec::new();
     let mut observations = Vec::new();
     for rows in constant_rows(run, rows(t.moments.held_s)) {
@@ -38,9 +40,12 @@ pub(crate) fn frozen(
                 spoilt.iter().any(|s: &Range<usize>| s.start <= rows.end && rows.start <= s.end);
             let rotates = robot.links().get(j).is_none_or(|link| link.joint.kind.is_rotation());
             let least = t.moves[usize::from(!rotates)];
-            let broken = breaks_off(run, j, &rows, t)
-                || has_speed(run, j, &rows, least, t.moments.stuck_counts);
-            if !known && range(&run.joints[j].position) > least && broken && goes_on(run, j, &rows)
+            let broken =
+                breaks_off(run, j, &rows, t) || has_speed(run, j, &rows, least, &t.moments);
+            if !known
+                && range(&run.joints[j].position) > least
+                && broken
+                && goes_on(run, j, &rows, t.moments.goes_on)
             {
                 observations.push(Observation::of_seconds(
                     ObservationKind::StuckEncoder,
@@ -115,7 +120,7 @@ fn breaks_off(run: &Run, j: usize, rows: &Range<usize>, t: &InspectionThresholds
         let usual = all.fold(0.0_f64, |most, k| most.max(change(k)));
         rows.start >= span && usual > 0.0 && step(rows.start, span).abs() > stops * usual
     };
-    [1, 3].into_iter().any(breaks)
+    t.moments.step_rows.into_iter().any(breaks)
 }
 
 /// Whether the velocity column of a joint shows motion while its position stands still, over more than the steps of the
@@ -126,7 +131,7 @@ fn breaks_off(run: &Run, j: usize, rows: &Range<usize>, t: &InspectionThresholds
 /// ```
 ///
 /// which holds for any unit of time.
-fn has_speed(run: &Run, j: usize, rows: &Range<usize>, least: f64, counts: f64) -> bool {
+fn has_speed(run: &Run, j: usize, rows: &Range<usize>, least: f64, t: &MomentThresholds) -> bool {
     let joint = &run.joints[j];
     let Some(velocity) = joint.velocity.as_deref() else { return false };
     let steps: Vec<f64> = joint.position.windows(2).map(|q| (q[1] - q[0]).abs()).collect();
@@ -134,12 +139,14 @@ fn has_speed(run: &Run, j: usize, rows: &Range<usize>, least: f64, counts: f64) 
     let speed = |v: &[f64]| v.iter().map(|v| v.abs()).sum::<f64>();
     let here = speed(&velocity[rows.clone()]);
     let way = here * steps.iter().sum::<f64>() / (speed(velocity) - here);
-    way.is_finite() && way > (counts * count).max(least) && way > 0.2 * range(&joint.position)
+    way.is_finite()
+        && way > (t.stuck_counts * count).max(least)
+        && way > t.hidden_way * range(&joint.position)
 }
 
 /// Whether another signal shows that the arm moves on: another position, or the effort of the joint.
-fn goes_on(run: &Run, j: usize, rows: &Range<usize>) -> bool {
-    let of = |x: &[f64]| range(&x[rows.clone()]) > 0.2 * range(x) && range(x) > 0.0;
+fn goes_on(run: &Run, j: usize, rows: &Range<usize>, least: f64) -> bool {
+    let of = |x: &[f64]| range(&x[rows.clone()]) > least * range(x) && range(x) > 0.0;
     of(&run.joints[j].effort)
         || run.joints.iter().enumerate().any(|(k, joint)| k != j && of(&joint.position))
 }

@@ -24,7 +24,7 @@ pub(crate) fn jumps(
         let step = *q - before;
         before = *q;
         let full = (step / TAU).round();
-        let even = run.time[k] - run.time[k - 1] < 1.5 * usual;
+        let even = run.time[k] - run.time[k - 1] < t.moments.next_row * usual;
         if full.abs() > 0.0 && (step - full * TAU).abs() < t.moments.full_turn && even {
             turns += full;
             largest = if full.abs() > largest.abs() { full } else { largest };
@@ -34,7 +34,7 @@ pub(crate) fn jumps(
         }
         *q -= turns * TAU;
     }
-    let is_jump = !rows.is_empty() && fast < 0.25 * TAU;
+    let is_jump = !rows.is_empty() && fast < t.moments.fastest_turn * TAU;
     is_jump.then(|| {
         Observation::of_seconds(ObservationKind::TurnJump { turns: largest as i32 }, joint, rows)
     })

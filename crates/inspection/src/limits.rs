@@ -22,7 +22,7 @@ pub(crate) fn at_limits(robot: &Robot, runs: &[Run], t: &InspectionThresholds) -
         let both = stated.is_some() || {
             let low = all().filter(|e| **e <= -limit * (1.0 - t.near_limit)).count();
             let high = all().filter(|e| **e >= limit * (1.0 - t.near_limit)).count();
-            low.min(high) > 2
+            low.min(high) > t.clipped_rows
         };
         let is_clipped = share >= t.at_limit
             && both

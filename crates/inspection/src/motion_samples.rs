@@ -55,7 +55,8 @@ impl Thinned {
     pub fn of(runs: &[Run], pieces: &[RunPiece], t: &InspectionThresholds) -> Option<Self> {
         let joints = runs.first()?.joints.len();
         let scale_s = scale_s(pieces, t)?;
-        let pieces: Vec<Smooth> = pieces.iter().filter_map(|p| Smooth::of(p, scale_s)).collect();
+        let pieces: Vec<Smooth> =
+            pieces.iter().filter_map(|p| Smooth::of(p, scale_s, t.shortest_piece)).collect();
         let fastest: Vec<f64> = (0..joints)
             .map(|j| pieces.iter().flat_map(|s| &s.joints[j][1]).fold(0.0, |m, v| v.abs().max(m)))
             .collect();
@@ -148,13 +149,13 @@ fn mean(v: &[f64], k: usize, near: usize) -> f64 {
 }
 
 impl Smooth {
-    fn of(piece: &RunPiece, scale_s: f64) -> Option<Self> {
+    fn of(piece: &RunPiece, scale_s: f64, shortest: usize) -> Option<Self> {
         let scale = ((scale_s / piece.step_s).round() as usize).max(1);
         let cutoff = 0.5 / scale as f64;
         let filter = LowPass::new(4, cutoff.min(0.45), 1.0).ok();
         let length = piece.len();
         let end = SETTLING * scale;
-        if length < 4 * end {
+        if length < shortest * end {
             return None;
         }
         let apply = |x: &[f64]| {

@@ -50,7 +50,7 @@ fn overlap(
     let unlike = own.windows(2).filter(|m| m[0] != m[1]).count();
     let length_s = usual * longest.len() as f64;
     if length_s < t.shared_s
-        || longest.len() < 50
+        || longest.len() < t.shared_rows
         || (unlike as f64) < t.moving_rows * own.len() as f64
     {
         return None;

@@ -55,7 +55,9 @@ fn improves(judge: &Judge, read: &ReadingFit) -> bool {
     };
     let n = read.shares.len();
     let confirming = (0..n).filter(|j| ratio(*j) > t.confirms).count();
-    if read.reading.is_of_whole_arm() && confirming < n.div_ceil(3).min(2) {
+    if read.reading.is_of_whole_arm()
+        && confirming < n.div_ceil(t.joints_of_confirming).min(t.most_confirming)
+    {
         return false;
     }
     // Each of two exchanged columns must fit at its new joint.
@@ -69,7 +71,7 @@ fn improves(judge: &Judge, read: &ReadingFit) -> bool {
         gain if gain >= t.contradicted_gain && read.reading.is_sign() => 1.0,
         _ => return false,
     };
-    at(&read.before) >= least.max(4.0 * at(&judge.floors)) && at(&read.shares) <= t.mended
+    at(&read.before) >= least.max(t.above_floor * at(&judge.floors)) && at(&read.shares) <= t.mended
 }
 
 fn most_improved_joint(judge: &Judge, read: &ReadingFit) -> usize {

@@ -14,7 +14,7 @@ const LOOKED_AT: usize = 1000;
 pub(crate) fn scale_s(pieces: &[RunPiece], t: &InspectionThresholds) -> Option<f64> {
     let step_s = pieces.iter().map(|p| p.step_s).fold(f64::INFINITY, f64::min);
     let longest_s = pieces.iter().map(|p| p.step_s * p.len() as f64).fold(0.0, f64::max);
-    let most = (longest_s / step_s / 24.0) as usize;
+    let most = (longest_s / step_s / t.spans_of_piece) as usize;
     let mut spans: Vec<usize> = Vec::new();
     let mut span = 1.0_f64;
     while (span as usize) < most {

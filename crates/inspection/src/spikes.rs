@@ -21,7 +21,8 @@ pub(crate) fn spikes(
     if n < t.moments.rare_spike {
         return None;
     }
-    let off: Vec<f64> = (0..n).map(|k| off(&run.time, position, usual, k)).collect();
+    let off: Vec<f64> =
+        (0..n).map(|k| off(&run.time, position, t.moments.gap * usual, usual, k)).collect();
     // A spike makes its neighbours' half as large: the largest of all without the spikes and them is usual.
     let mut sorted = off.clone();
     sorted.sort_unstable_by(f64::total_cmp);
@@ -29,8 +30,9 @@ pub(crate) fn spikes(
     let steps = position.windows(2).map(|q| (q[1] - q[0]).abs()).filter(|step| *step > 0.0);
     let floor =
         (t.moments.spike_counts * steps.fold(f64::INFINITY, f64::min)).max(t.moments.least_spike);
-    let is_spike =
-        |k: &usize| off[*k] > t.moments.spike * bulk && off[*k] > floor && alone(&off, *k);
+    let is_spike = |k: &usize| {
+        off[*k] > t.moments.spike * bulk && off[*k] > floor && alone(&off, *k, t.moments.single)
+    };
     let found: Vec<usize> = (1..n - 1).filter(is_spike).collect();
     let usual_off = (0..n)
         .filter(|k| found.iter().all(|f| f.abs_diff(*k) > 1))
@@ -55,8 +57,8 @@ pub(crate) fn spikes(
 }
 
 /// Distance of a row from the line through its neighbours; 0 beside a gap.
-fn off(time: &[f64], q: &[f64], usual: f64, k: usize) -> f64 {
-    if k == 0 || k + 1 >= q.len() || time[k + 1] - time[k - 1] > 3.5 * usual {
+fn off(time: &[f64], q: &[f64], gap: f64, usual: f64, k: usize) -> f64 {
+    if k == 0 || k + 1 >= q.len() || time[k + 1] - time[k - 1] > gap {
         return 0.0;
     }
     // Whole steps: stamps with jitter say nothing of when a row was read.
@@ -67,9 +69,9 @@ fn off(time: &[f64], q: &[f64], usual: f64, k: usize) -> f64 {
 }
 
 /// Whether both neighbours are off by half as much: the mark of a single row.
-fn alone(off: &[f64], k: usize) -> bool {
+fn alone(off: &[f64], k: usize, nearly: f64) -> bool {
     let half = 0.5 * off[k];
-    let near = |x: f64| (x - half).abs() < 0.4 * half;
+    let near = |x: f64| (x - half).abs() < nearly * half;
     near(off[k - 1]) && near(off[k + 1])
 }
 

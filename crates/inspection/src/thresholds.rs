@@ -43,6 +43,8 @@ pub struct InspectionThresholds {
     pub at_limit: f64,
     /// Least time that two overlapping runs share (s).
     pub shared_s: f64,
+    /// Fewest rows that two overlapping runs share: at a low rate `shared_s` is a few rows, which may be alike by chance.
+    pub shared_rows: usize,
     /// Torque constants of a drive that is nearly right, least and largest (1): for tests in which a free constant could
     /// take away the error that is looked for.
     pub exact_gain: [f64; 2],
@@ -59,12 +61,18 @@ pub struct InspectionThresholds {
     pub longest_step: f64,
     /// Difference of steps of time from the usual one, as a share of it, up to which a clock is even (1).
     pub even_step: f64,
+    /// Shortest piece that is looked at, in times over which the low-pass settles: it settles at both ends.
+    pub shortest_piece: usize,
+    /// Spans of the longest second difference that the longest piece holds (1): a slower motion has too few periods.
+    pub spans_of_piece: f64,
     /// Ratio of second differences over two spans, one twice the other, from which on a signal is smooth at the shorter
     /// (1): 4 for a parabola, `4 cos²(w s / 2)` for a sine, about 1 for noise.
     pub smooth: f64,
     /// Second difference over that of neighbouring samples, which is all that noise can have, from which on motion
     /// prevails (1).
     pub above_noise: f64,
+    /// Factors between which a velocity column is off by less than a third (1): a filter of the logger may do so much.
+    pub close_velocity: [f64; 2],
     /// Correlation of a velocity column with the derivative of the position from which on it can be compared (1).
     pub velocity_correlation: f64,
     /// The same where the column is off by less than a third (1).
@@ -95,6 +103,10 @@ pub struct InspectionThresholds {
     pub degrees_range: f64,
     /// Factor by which the residual of a joint falls that confirms a reading (1).
     pub confirms: f64,
+    /// A reading of the whole arm is confirmed by one joint in so many: the others may carry too little to show it.
+    pub joints_of_confirming: usize,
+    /// Joints that are enough to confirm a reading of the whole arm.
+    pub most_confirming: usize,
     /// Factor by which friction alone leaves more than with the nominal torque, where a joint shows its unit (1).
     pub shows_unit: f64,
     /// Share left from which on a nominal torque is contradicted (1).
@@ -105,12 +117,21 @@ pub struct InspectionThresholds {
     pub agrees: f64,
     /// Fewest joints that contradict the description of the robot.
     pub fewest_contradicted: usize,
+    /// Joints that must contradict the description for each one that agrees with it: an arm of another type agrees at
+    /// a quarter of its joints at most.
+    pub against_agreeing: usize,
+    /// Factor by which a share must exceed that of model errors to count (1): twice their size, as power.
+    pub above_floor: f64,
     /// Longest shift of the efforts against the motion that is looked for (s).
     pub longest_shift_s: f64,
+    /// Such shifts that the shortest piece of a run holds: what a shift moves out of a piece is not compared.
+    pub piece_of_shifts: usize,
     /// Difference from its limit up to which an effort is at it, as a share of the limit (1).
     pub near_limit: f64,
     /// Efforts that exceed their limit by this factor are not clipped there (1).
     pub beyond_limit: f64,
+    /// Samples at an extreme value that are exceeded both ways where the effort is clipped: a peak has one or two.
+    pub clipped_rows: usize,
     /// Fewest values of an effort that is not coarsely quantised.
     pub fewest_values: usize,
     /// Share of the rows that two runs share that must differ from the row before (1): at rest all rows are alike.
@@ -141,6 +162,7 @@ impl Default for InspectionThresholds {
             slowest_hz: 2.0,
             at_limit: 1.0 / 3.0,
             shared_s: 0.5,
+            shared_rows: 50,
             exact_gain: [0.8, 1.25],
             unit_gain: [2.0 / 3.0, 1.5],
             least_rows: 40,
@@ -148,8 +170,11 @@ impl Default for InspectionThresholds {
             enough_rows: 30,
             longest_step: 5.5,
             even_step: 0.02,
+            shortest_piece: 4,
+            spans_of_piece: 24.0,
             smooth: 3.4,
             above_noise: 12.0,
+            close_velocity: [0.75, 1.33],
             velocity_correlation: 0.95,
             close_velocity_correlation: 0.995,
             same_velocity_factor: 0.02,
@@ -165,14 +190,20 @@ impl Default for InspectionThresholds {
             most_rivals: 6,
             degrees_range: 10.0,
             confirms: 2.0,
+            joints_of_confirming: 3,
+            most_confirming: 2,
             shows_unit: 4.0,
             contradicted: 0.5,
             contradicted_by: 1.3,
             agrees: 0.6,
             fewest_contradicted: 3,
+            against_agreeing: 3,
+            above_floor: 4.0,
             longest_shift_s: 1.5,
+            piece_of_shifts: 4,
             near_limit: 1e-3,
             beyond_limit: 1.05,
+            clipped_rows: 2,
             fewest_values: 20,
             moving_rows: 0.5,
         }
@@ -186,6 +217,15 @@ pub struct MomentThresholds {
     pub held_s: f64,
     /// Least time for which one position stands still (s): drives rest for less in the middle of a motion.
     pub stuck_s: f64,
+    /// Fewest rows for which signals stand still, at any rate: a slow logger repeats a row or two.
+    pub held_rows: usize,
+    /// Rows over which the steps about a freeze are taken: one, and three for an encoder of coarse steps.
+    pub step_rows: [usize; 2],
+    /// Least way that a joint goes while its position stands still, as a share of its range (1): its velocity column may
+    /// be noisy.
+    pub hidden_way: f64,
+    /// Share of its range over which another signal must move while a position stands still (1).
+    pub goes_on: f64,
     /// Least step into a freeze over the largest change from one step to the next elsewhere, and least step out of it over
     /// the largest step elsewhere (1): arms brake over several samples, a freeze breaks motion off.
     pub freeze: [f64; 2],
@@ -203,8 +243,16 @@ pub struct MomentThresholds {
     pub spike_counts: f64,
     /// Least height of a spike (rad or m): low-passes handle smaller ones.
     pub least_spike: f64,
+    /// Neighbours of a row that are farther apart than so many usual steps of time have a gap between them (1).
+    pub gap: f64,
+    /// Difference from half a spike, as a share of it, up to which its neighbours are those of a single row (1).
+    pub single: f64,
     /// Difference of a jump from full turns (rad).
     pub full_turn: f64,
+    /// Step of time over the usual one up to which no row is missing between two (1): over a gap an arm may turn.
+    pub next_row: f64,
+    /// Share of a turn that no other step of a log with jumps reaches (1): a faster joint may have turned.
+    pub fastest_turn: f64,
 }
 
 impl Default for MomentThresholds {
@@ -212,6 +260,10 @@ impl Default for MomentThresholds {
         Self {
             held_s: 0.2,
             stuck_s: 1.0,
+            held_rows: 10,
+            step_rows: [1, 3],
+            hidden_way: 0.2,
+            goes_on: 0.2,
             freeze: [2.0, 6.0],
             stuck_counts: 20.0,
             beside_freeze: 8,
@@ -220,7 +272,11 @@ impl Default for MomentThresholds {
             bulk_of_rows: 20,
             spike_counts: 5.0,
             least_spike: 2e-3,
+            gap: 3.5,
+            single: 0.4,
             full_turn: 0.5,
+            next_row: 1.5,
+            fastest_turn: 0.25,
         }
     }
 }
