@@ -88,7 +88,9 @@ pub fn diagnose(
     let log = Log { described, limits: &limits, ..log };
     let search = ToneSearch { nominal: robot, about, settings, log, inadequate: &inadequate };
     let (oscillations, shaped) = search.find_tones(runs)?;
-    warnings.extend(oscillations.ringing.iter().map(|at| words_for_ringing(robot, *at)));
+    warnings.extend(
+        oscillations.ringing.iter().map(|&(joint, hz)| words_for_ringing(robot, joint, hz)),
+    );
     progress.step();
     let inputs = Inputs {
         nominal: robot,
@@ -145,7 +147,7 @@ fn differ_in_drives(described: &Robot, about: &Robot) -> bool {
     })
 }
 
-fn words_for_ringing(robot: &Robot, (joint, hz): (usize, f64)) -> String {
+fn words_for_ringing(robot: &Robot, joint: usize, hz: f64) -> String {
     let name = robot.joint_names().nth(joint).unwrap_or_default();
     format!(
         "{name} oscillates in a band about {hz:.1} Hz: not one tone that something keeps up, but something that rings, such as a spring or a control loop with too much delay for its gains"

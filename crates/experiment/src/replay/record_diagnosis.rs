@@ -9,7 +9,7 @@ use recording::{
 use robot::Loaded;
 
 use crate::error::ExperimentError;
-use crate::replay::replayed::{Replayed, STEP_S};
+use crate::replay::replayed::{Replayed, STEP_S, Simulated};
 
 /// Highest rate of the recording (Hz).
 const RATE_HZ: f64 = 100.0;
@@ -74,7 +74,7 @@ pub fn record_diagnosis(
     progress.stage("writing the recording", records.len());
     let mut start_s = 0.0;
     for (r, (record, traces)) in records.iter().zip(&outcome.traces).enumerate() {
-        events(&mut recorder, start_s, (&record.name, record.time[0]), (&replayed, r))?;
+        events(&mut recorder, start_s, record, [&replayed.nominal[r], &replayed.extended[r]])?;
         let ghosts = [&replayed.nominal[r].q[..], &replayed.extended[r].q];
         let end_s = write(&mut recorder, start_s, &Shown { record, traces, ghosts })?;
         start_s = end_s + PAUSE_S;
@@ -152,17 +152,17 @@ fn record_findings(recorder: &mut Recorder, outcome: &DiagnosisRun) -> Result<()
     Ok(recorder.bars("RMS error (N·m or N)", &bars)?)
 }
 
-/// Records the beginning of a run, with its name and first time (s), and the parts that could not be simulated.
+/// Records the beginning of a run at `start_s` and the parts that the nominal and the extended model could not simulate.
 fn events(
     recorder: &mut Recorder,
     start_s: f64,
-    (name, first_s): (&str, f64),
-    (replayed, r): (&Replayed, usize),
+    record: &PreparedRun,
+    [nominal, extended]: [&Simulated; 2],
 ) -> Result<(), ExperimentError> {
-    let begins = format!("{}, from {first_s:.3} s of its log", of_run(name));
+    let begins = format!("{}, from {:.3} s of its log", of_run(&record.name), record.time[0]);
     recorder.event(start_s, EventLevel::Info, &begins)?;
-    for (model, runs) in [("nominal", &replayed.nominal), ("extended", &replayed.extended)] {
-        if let Some(trouble) = &runs[r].trouble {
+    for (model, run) in [("nominal", nominal), ("extended", extended)] {
+        if let Some(trouble) = &run.trouble {
             recorder.event(start_s, EventLevel::Warning, &format!("{model} model: {trouble}"))?;
         }
     }

@@ -35,7 +35,7 @@ impl Predictions {
         let kinds = scenario.feedforward().par_iter().enumerate();
         let others = kinds.filter(|(_, kind)| **kind != run.kind).filter_map(|(place, &kind)| {
             let model = learned.model(kind.model()?)?;
-            Some(Predicted { kind, place, tau: torque(model, kind, (run, step)) })
+            Some(Predicted { kind, place, tau: torque(model, kind, run, step) })
         });
         let time_s = run.tracking.rows.time_s().step_by(step).collect();
         Self { time_s, models: others.collect() }
@@ -43,7 +43,7 @@ impl Predictions {
 }
 
 /// The torque of a model at the references of every `step`-th tick.
-fn torque(model: &Model, kind: FeedforwardKind, (run, step): (&TrackedRun, usize)) -> Vec<f64> {
+fn torque(model: &Model, kind: FeedforwardKind, run: &TrackedRun, step: usize) -> Vec<f64> {
     let rows = &run.tracking.rows;
     let joints = rows.joints();
     let (mut workspace, rest) = (model.workspace(), vec![0.0; joints]);

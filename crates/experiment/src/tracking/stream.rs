@@ -202,10 +202,9 @@ impl Writing {
         match thread.join() {
             Ok(files) => {
                 grown = files.log.finish();
-                let parts = (scenario, learned, run);
                 let ended = match (files.refused, files.recorder) {
                     (Some(error), _) => Err(error),
-                    (None, Some(recorder)) => end(recorder, parts),
+                    (None, Some(recorder)) => end(recorder, scenario, learned, run),
                     (None, None) => Ok(Listener::NotAsked),
                 };
                 match ended {
@@ -247,7 +246,9 @@ fn write_log(
 /// Adds to a recording the results that are known at the end of the run, and closes it.
 fn end(
     mut recorder: Recorder,
-    (scenario, learned, run): (&TrackingScenario, &Learned, &TrackedRun),
+    scenario: &TrackingScenario,
+    learned: &Learned,
+    run: &TrackedRun,
 ) -> Result<Listener, RecordingError> {
     let predictions = Predictions::of(scenario, learned, run);
     let signal = |name, place| SceneSignal {

@@ -134,7 +134,7 @@ impl<'a> Plan<'a> {
         let time = self.time.take(&table.columns);
         let mut all = Vec::with_capacity(self.joints.len());
         for (j, (link, sources)) in robot.links().iter().zip(&self.joints).enumerate() {
-            all.push(self.channels((link, sources), &time, table));
+            all.push(self.channels(link, sources, &time, table));
             let later = || self.joints[j + 1..].iter().flatten();
             for (_, Source { column, .. }) in sources {
                 if !later().any(|(_, source)| source.column == *column) {
@@ -149,7 +149,8 @@ impl<'a> Plan<'a> {
     /// The signals of one joint.
     fn channels(
         &self,
-        (link, sources): (&Link, &[(Channel, Source)]),
+        link: &Link,
+        sources: &[(Channel, Source)],
         time: &[f64],
         table: &Table,
     ) -> Channels {
@@ -178,7 +179,7 @@ impl<'a> Plan<'a> {
         let mut all = Vec::new();
         let mut mended = Vec::new();
         for (link, sources) in robot.links().iter().zip(&self.joints) {
-            let (joint, channels) = (&link.joint, self.channels((link, sources), &time, table));
+            let (joint, channels) = (&link.joint, self.channels(link, sources, &time, table));
             for (channel, found) in find_impossible(joint, &time, &channels) {
                 let Some(first) = found.first() else { continue };
                 let (row, count) = (table.row(first.sample), found.len());
@@ -190,7 +191,7 @@ impl<'a> Plan<'a> {
                 let value = channels.get(channel).map_or(f64::NAN, |x| x[first.sample]);
                 let expectation = first.expectation.clone();
                 if count > most_left_out(time.len()) {
-                    self.check_degrees(joint, sources, (&time, table), &channels)?;
+                    self.check_degrees(joint, sources, &time, table, &channels)?;
                     let (path, rows) = (self.path.clone(), time.len());
                     let few = most_left_out(rows);
                     return Err(LogError::Impossible {
@@ -220,7 +221,8 @@ impl<'a> Plan<'a> {
     pub(crate) fn unwrap(
         &self,
         sources: &[(Channel, Source)],
-        (time, table): (&[f64], &Table),
+        time: &[f64],
+        table: &Table,
         channels: &mut Channels,
     ) -> Vec<Repair> {
         let mut mended = Vec::new();
@@ -238,7 +240,8 @@ impl<'a> Plan<'a> {
         &self,
         joint: &Joint,
         sources: &[(Channel, Source)],
-        (time, table): (&[f64], &Table),
+        time: &[f64],
+        table: &Table,
         channels: &Channels,
     ) -> Result<(), LogError> {
         let source_without_unit = |channel: Channel| {

@@ -150,9 +150,9 @@ fn read_open_log(
     let described = robot.links().iter().map(|l| &l.joint);
     for ((joint, sources), channels) in described.zip(&plan.joints).zip(&mut joints) {
         if joint.kind.is_rotation() {
-            mended.extend(plan.unwrap(sources, (&time, &table), channels));
+            mended.extend(plan.unwrap(sources, &time, &table, channels));
         }
-        plan.check_degrees(joint, sources, (&time, &table), channels)?;
+        plan.check_degrees(joint, sources, &time, &table, channels)?;
         if joint.kind.is_rotation() {
             let link = channels.link_position.take();
             channels.link_position = link.map(|link| to_turn_of(&channels.position, link));

@@ -71,7 +71,7 @@ impl Agreement {
             _ => 0.0,
         };
         let lag_s = (best as f64 - reach as f64 + between) / rate_hz;
-        let lag_std_s = lag_std(measured, derived, rate_hz, (reach, best), scale)
+        let lag_std_s = lag_std(measured, derived, rate_hz, reach, best, scale)
             / (cutoff_hz * n as f64 / rate_hz).sqrt();
         Some(Self { lag_s, lag_std_s, scale, correlation })
     }
@@ -96,7 +96,7 @@ impl Agreement {
 }
 
 /// Standard error of a lag (s), times the root of the number of independent samples.
-fn lag_std(m: &[f64], d: &[f64], rate_hz: f64, (reach, lag): (usize, usize), scale: f64) -> f64 {
+fn lag_std(m: &[f64], d: &[f64], rate_hz: f64, reach: usize, lag: usize, scale: f64) -> f64 {
     let shift = |k: usize| k + reach - lag;
     let rows = reach + 1..m.len().min(d.len()) - reach - 1;
     let of = |f: &dyn Fn(usize) -> f64| centre(rows.clone().map(f).collect());

@@ -55,7 +55,7 @@ impl Sweep {
                 Some(&[low, high]) => [low, high],
                 None => self.shared_range(site, index)?,
             };
-            self.sweep(site, &mut knots, &posture, (index, range))?;
+            self.sweep(site, &mut knots, &posture, index, range)?;
         }
         site.evenly(knots)
     }
@@ -112,7 +112,8 @@ impl Sweep {
         site: &Site,
         knots: &mut Knots,
         posture: &[f64],
-        (joint, [low, high]): (usize, [f64; 2]),
+        joint: usize,
+        [low, high]: [f64; 2],
     ) -> Result<(), MotionError> {
         let with = |position: f64| {
             let mut posture = posture.to_vec();

@@ -134,7 +134,7 @@ impl Area {
         let axis = LogAxis::over_decades(values.chain(floors), MOST_DECADES, [0.0, 100.0]);
         let colours = medium.palette();
         let rows = dots.joints.iter().enumerate();
-        let row = |(i, joint)| Row::new(&dots.keys, joint, axis.as_ref(), (i, &colours));
+        let row = |(i, joint)| Row::new(&dots.keys, joint, axis.as_ref(), i, &colours);
         Self {
             words: format!("{}: {}, the numbers of every dot in the table", dots.title, dots.axis),
             axis: dots.axis,
@@ -155,7 +155,8 @@ impl Row {
         keys: &[LegendKey],
         joint: &JointDots,
         axis: Option<&LogAxis>,
-        (index, colours): (usize, &Palette),
+        index: usize,
+        colours: &Palette,
     ) -> Self {
         let top = ROW * index as f64;
         let told =

@@ -20,22 +20,19 @@ pub(crate) fn gain_rows(metrics: &Metrics) -> Vec<GainRow> {
     let mut rows = vec![gain_row(
         "torque error, RMS over all joints".to_owned(),
         PredictionGain::of_torque(&metrics.torque),
-        ("N·m", 1.0),
+        "N·m",
+        1.0,
     )];
     for ForwardWindow { window_s, .. } in &metrics.forward.windows {
         let what = format!("drift of the simulated tip in {:.0} ms", 1e3 * window_s);
-        rows.push(gain_row(
-            what,
-            PredictionGain::of_drift(&metrics.forward, *window_s),
-            ("mm", 1e3),
-        ));
+        rows.push(gain_row(what, PredictionGain::of_drift(&metrics.forward, *window_s), "mm", 1e3));
     }
     let what = format!("tracking error of the tip, gains {}", metrics.gains);
-    rows.push(gain_row(what, PredictionGain::of_tracking(&metrics.tracking), ("mm", 1e3)));
+    rows.push(gain_row(what, PredictionGain::of_tracking(&metrics.tracking), "mm", 1e3));
     rows
 }
 
-fn gain_row(what: String, gain: Option<PredictionGain>, (unit, scale): (&str, f64)) -> GainRow {
+fn gain_row(what: String, gain: Option<PredictionGain>, unit: &str, scale: f64) -> GainRow {
     let with_unit = |value: f64| format!("{} {unit}", significant(scale * value, 3));
     let Some(gain) = gain else {
         return GainRow { what, before: "-".into(), after: "-".into(), times: "-".into() };

@@ -92,7 +92,7 @@ impl Drawing {
         );
         let keys = sweep.models.iter().map(key).collect();
         let sheet = FigureSheet::new(&title, &subtitle, keys, medium);
-        let panels = panels((comparison, sweep), sheet.bottom() + 42.0, &medium.palette());
+        let panels = panels(comparison, sweep, sheet.bottom() + 42.0, &medium.palette());
         let bottom = panels.last().map_or(sheet.bottom(), |panel| panel.y[1]);
         let axis = comparison.thousandths();
         let gains = sweep.gains.clone();
@@ -101,7 +101,8 @@ impl Drawing {
 }
 
 fn panels(
-    (comparison, sweep): (&TrackingComparison, &ErrorSweep),
+    comparison: &TrackingComparison,
+    sweep: &ErrorSweep,
     top: f64,
     colours: &Palette,
 ) -> Vec<Panel> {

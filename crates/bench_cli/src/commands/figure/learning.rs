@@ -121,7 +121,8 @@ impl Stages<'_> {
         let [logs, diagnosis, models] =
             ["logs", "diagnosis", "models"].map(|f| Path::new(f).join(name));
         let plant = arm.plant();
-        self.run.logs((&format!("{name}_logs"), &logs), plant, arm.loaded_robot(), || Ok(plant))?;
+        let stage = format!("{name}_logs");
+        self.run.logs(&stage, &logs, plant, arm.loaded_robot(), || Ok(plant))?;
         self.diagnosis(arm, [&logs, &diagnosis])?;
         self.models(arm, [&logs, &diagnosis, &models])?;
         self.test(arm, [&logs, &models])
@@ -139,7 +140,7 @@ impl Stages<'_> {
         let words = format!("from {} of the logs alone", names.len());
         self.run.stage::<_, BenchError>(&stage, &words, inputs, || {
             let runs = self.run.runs(logs, &names, &arm.loaded_robot().robot)?;
-            self.run.diagnose(folder, (file, arm.loaded_robot()), &runs)?;
+            self.run.diagnose(folder, file, arm.loaded_robot(), &runs)?;
             Ok(Product { value: (), files: diagnosis_files(folder) })
         })?;
         Ok(())

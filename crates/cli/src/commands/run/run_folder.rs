@@ -76,7 +76,8 @@ impl RunFolder<'_> {
     /// [`CliError`] when a file cannot be read or written.
     pub fn logs<'s>(
         &self,
-        (name, logs): (&str, &Path),
+        name: &str,
+        logs: &Path,
         plant: &Scenario,
         loaded: &Loaded,
         drawn: impl FnOnce() -> Result<&'s Scenario, CliError>,
@@ -127,7 +128,8 @@ impl RunFolder<'_> {
     pub fn diagnose(
         &self,
         folder: &Path,
-        (robot_file, loaded): (&Path, &Loaded),
+        robot_file: &Path,
+        loaded: &Loaded,
         runs: &[Run],
     ) -> Result<DiagnosedRuns, CliError> {
         let settings = Settings { control_rate_hz: loaded.control.rate_hz, ..Settings::default() };

@@ -94,8 +94,8 @@ impl Stages<'_> {
     /// Simulates the logs and, apart from them, the truth.
     fn logs(&self) -> Result<Staged<()>, CliError> {
         let plant = self.experiment.plant();
-        let place = ("simulation", Path::new(LOGS));
-        self.folder().logs(place, plant, self.loaded_robot(), || Ok(self.drawn_scenario()?.plant()))
+        let drawn = || Ok(self.drawn_scenario()?.plant());
+        self.folder().logs("simulation", Path::new(LOGS), plant, self.loaded_robot(), drawn)
     }
 
     /// Diagnoses the logs through their files, and when that is written opens the truth.
@@ -109,9 +109,9 @@ impl Stages<'_> {
         self.stage("diagnosis", &words, inputs, || {
             let loaded = self.loaded_robot();
             let runs = self.runs(&names)?;
-            let robot = (self.experiment.plant().robot_file(), loaded);
+            let robot_file = self.experiment.plant().robot_file();
             let DiagnosedRuns { outcome, verdict, told } =
-                self.folder().diagnose(Path::new(DIAGNOSIS), robot, &runs)?;
+                self.folder().diagnose(Path::new(DIAGNOSIS), robot_file, loaded, &runs)?;
             let diagnosed =
                 DiagnosedLogs { loaded, runs: &runs, outcome: &outcome, verdict: &verdict };
             if recording::IS_BUILT {
