@@ -12,7 +12,7 @@ use checks::arms::workspace_root;
 use document::Document;
 
 /// Says nothing and ends nothing.
-struct Quiet;
+pub struct Quiet;
 
 impl WorkProgress for Quiet {
     fn begin(&self, _: usize) {}

@@ -3,7 +3,7 @@ use clap::{Parser, Subcommand};
 use crate::commands::missing::Folder;
 use crate::commands::submit::submission;
 use crate::commands::times::measure;
-use crate::commands::{compare, figure, plan, schema, work};
+use crate::commands::{account, compare, figure, plan, schema, work};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -30,6 +30,8 @@ A campaign's folder holds
   trials.parquet   all of them, one row a trial; with merge
   tally.json       how often what was hidden was named, by kind and size; with merge
   report.html      the same for a browser; with merge
+  accounts/        of every trial, where its names are lost; with account
+  account.json     all of them, by stage and kind; with account
 
 A trial is made in a folder of its own and its shard put in place when it is whole. Work that is
 killed loses the trials that were being made, no more; Ctrl-C lets them come to their end.";
@@ -76,6 +78,8 @@ pub enum BenchCommand {
     Status(Folder),
     /// Puts the trials that are made together: tables, trials.parquet, tally.json, report.html
     Merge(Folder),
+    /// Says of every missed visible cause and every false finding at which stage it is lost
+    Account(account::Arguments),
     /// Compares two results of the same trials, trial by trial: wins, losses and which trials turned
     Compare(compare::Arguments),
     /// Draws a figure of the paper and says of every claim about it whether it holds

@@ -90,6 +90,12 @@ pub enum BenchmarkError {
         /// The store.
         path: PathBuf,
     },
+    /// A campaign has no sheets of what is true.
+    #[error("{}: an account is of a campaign of a population, whose trials have sheets of the truth; this campaign starts from a scenario", path.display())]
+    NoTruthSheets {
+        /// The folder of the campaign.
+        path: PathBuf,
+    },
     /// The threads of a worker cannot be started.
     #[error("the threads of a worker cannot be started: {reason}")]
     NoThreads {

@@ -10,10 +10,12 @@
 //! ```
 //!
 //! - `panel` judges one trial of a population by its truth, `trials` plans and makes campaigns;
+//! - `account` says at which stage every missed cause and every false finding of a campaign is lost;
 //! - `tables` adds trials up, `paired` compares two results of the same trials;
 //! - `baselines` are two simple methods, `statistics` shares and rates with their intervals;
 //! - `paper` measures the figures of Nguyen-Tuong & Peters 2010, `reports` shows all of it.
 
+mod account;
 mod baselines;
 mod error;
 mod paired;
@@ -25,6 +27,12 @@ mod tables;
 mod trial_folder;
 mod trials;
 
+pub use account::account_work::{AccountProgress, make_accounts};
+pub use account::campaign_account::{ACCOUNT_SCHEMA, CampaignAccount, LostInTrial};
+pub use account::loss_stage::LossStage;
+pub use account::lost_name::{LostName, NameError};
+pub use account::oracle_noise::OracleEffortNoise;
+pub use account::trial_account::TrialAccount;
 pub use baselines::baseline::Baseline;
 pub use baselines::least_squares::least_squares;
 pub use baselines::two_questions::two_questions;

@@ -62,6 +62,41 @@ pub fn diagnose(
     settings: &Settings,
     progress: &dyn DiagnosisProgress,
 ) -> Result<DiagnosisRun, DiagnosisError> {
+    let (answer, logs) =
+        with_inputs(robot, runs, settings, progress, |inputs| answer(inputs, progress))?;
+    let Answer { mut diagnosis, traces, extended, held_out } = answer;
+    let PreparedLogs { prepared, read, runs, mut warnings } = logs;
+    diagnosis.data.runs = runs;
+    let rates = diagnosis.data.runs.iter().map(|run| run.rate_hz);
+    let fastest_hz = rates.fold(0.0, f64::max);
+    if settings.control_rate_hz.is_none() {
+        warnings.extend(words_for_hold(robot, &extended, fastest_hz.recip()));
+    }
+    diagnosis.warnings = warnings;
+    if read.is_some() {
+        diagnosis.data.put_right = true;
+        diagnosis.verdict = diagnosis.verdict.of_corrected_logs();
+    }
+    Ok(DiagnosisRun { diagnosis, traces, extended, read, prepared, held_out })
+}
+
+/// The logs behind the inputs of a search.
+pub(crate) struct PreparedLogs {
+    pub prepared: Prepared,
+    /// See [`DiagnosisRun::read`].
+    pub read: Option<Vec<Run>>,
+    pub runs: Vec<RunSummary>,
+    pub warnings: Vec<String>,
+}
+
+/// Prepares the logs of `runs` and calls `work` with the inputs of a search on them.
+pub(crate) fn with_inputs<T>(
+    robot: &Robot,
+    runs: &[Run],
+    settings: &Settings,
+    progress: &dyn DiagnosisProgress,
+    work: impl FnOnce(&Inputs) -> Result<T, DiagnosisError>,
+) -> Result<(T, PreparedLogs), DiagnosisError> {
     settings.check()?;
     progress.stage("preparing the logs", 2);
     let t = &settings.thresholds;
@@ -100,20 +135,10 @@ pub fn diagnose(
         design: &shaped.design,
         inadequate: &inadequate,
     };
-    let Answer { mut diagnosis, traces, extended, held_out } = answer(&inputs, progress)?;
-    diagnosis.data.runs = runs.iter().map(summary).collect();
-    let rates = diagnosis.data.runs.iter().map(|run| run.rate_hz);
-    let fastest_hz = rates.fold(0.0, f64::max);
-    if settings.control_rate_hz.is_none() {
-        warnings.extend(words_for_hold(robot, &extended, fastest_hz.recip()));
-    }
-    diagnosis.warnings = warnings;
+    let worked = work(&inputs)?;
+    let runs = runs.iter().map(summary).collect();
     let read = inspected.read;
-    if read.is_some() {
-        diagnosis.data.put_right = true;
-        diagnosis.verdict = diagnosis.verdict.of_corrected_logs();
-    }
-    Ok(DiagnosisRun { diagnosis, traces, extended, read, prepared, held_out })
+    Ok((worked, PreparedLogs { prepared, read, runs, warnings }))
 }
 
 /// The answer of a search; the caller fills `data.runs` and `warnings` of the diagnosis.

@@ -13,7 +13,10 @@
 //! signals -> columns -> regression -> search -> outcome
 //!                       readiness, oscillations
 //! ```
+//!
+//! [`account_for`] is an instrument for whoever knows the truth: how far every true name came, and which test stopped it.
 
+mod account;
 mod columns;
 mod compare;
 mod diagnose;
@@ -31,6 +34,9 @@ mod settings;
 mod signals;
 mod thresholds;
 
+pub use account::place_account::{LookedFor, PlaceAccount, SearchFate, Taker};
+pub use account::place_test::PlaceTest;
+pub use account::search_account::{JointReach, SearchAccount, account_for};
 pub use compare::{Comparison, FirstSize, compare};
 pub use diagnose::{DiagnosisRun, diagnose};
 pub use error::DiagnosisError;

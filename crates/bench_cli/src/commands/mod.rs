@@ -1,5 +1,6 @@
 //! The commands, one file or folder each.
 
+pub mod account;
 pub mod compare;
 pub mod figure;
 pub mod merge;

@@ -140,7 +140,7 @@ fn answers_without_logs(why: String, nominal: Option<Vec<Option<f64>>>, logs_s: 
 }
 
 /// The nominal model of a trial.
-fn nominal(folder: &Path) -> Result<Loaded, BenchmarkError> {
+pub(crate) fn nominal(folder: &Path) -> Result<Loaded, BenchmarkError> {
     let files = ["robot.toml", "robot.urdf"].map(|name| folder.join("nominal").join(name));
     let file = files.iter().find(|file| file.is_file()).unwrap_or(&files[0]);
     Ok(Robot::load(file)?)

@@ -106,6 +106,11 @@ impl CampaignFolder {
         Ok(new.len())
     }
 
+    /// Its path.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
     /// The campaign.
     pub fn campaign(&self) -> &Campaign {
         &self.campaign
@@ -162,7 +167,7 @@ impl CampaignFolder {
     }
 
     /// A folder inside it, which is created if it is missing.
-    pub(super) fn folder(&self, name: &str) -> Result<PathBuf, BenchmarkError> {
+    pub(crate) fn folder(&self, name: &str) -> Result<PathBuf, BenchmarkError> {
         let folder = self.root.join(name);
         std::fs::create_dir_all(&folder).map_err(unusable(&folder))?;
         Ok(folder)

@@ -9,7 +9,7 @@ pub(super) fn seed_of(seed: u64, kind: &str, number: usize) -> u64 {
 }
 
 /// SHA-256 of a text, in hexadecimal.
-pub(super) fn hexadecimal(text: &str) -> String {
+pub(crate) fn hexadecimal(text: &str) -> String {
     Sha256::digest(text).iter().fold(String::new(), |mut all, byte| {
         // A String takes everything.
         let _ = write!(all, "{byte:02x}");

@@ -104,7 +104,7 @@ pub fn work(
 }
 
 /// The threads of one worker: an equal share of the processors.
-fn pool(jobs: usize) -> Result<ThreadPool, BenchmarkError> {
+pub(crate) fn pool(jobs: usize) -> Result<ThreadPool, BenchmarkError> {
     let processors = available_parallelism().map_or(1, usize::from);
     let pool = ThreadPoolBuilder::new().num_threads((processors / jobs).max(1)).build();
     pool.map_err(|error| BenchmarkError::NoThreads { reason: error.to_string() })
@@ -204,7 +204,8 @@ fn outcome_of<T>(
     }
 }
 
-fn is_of_the_disk(error: &BenchmarkError) -> bool {
+/// Whether the disk failed, so that no other trial can be kept either.
+pub(crate) fn is_of_the_disk(error: &BenchmarkError) -> bool {
     use BenchmarkError as B;
     use ExperimentError as E;
     use PopulationError as P;

@@ -44,6 +44,30 @@ pub(crate) fn compare_encoders(
     log: &Log,
     inadequate: &[Option<String>],
 ) -> Result<Option<SecondEncoder>, DiagnosisError> {
+    let compare = |inputs: &Inputs| {
+        inputs.with_dataset(|dataset| {
+            let causes = inputs.find_causes(dataset, &Silent)?;
+            let Findings { found, ruled_out, .. } = inputs.findings(dataset, &causes);
+            Ok(SecondEncoder {
+                found: found.into_iter().map(|f| f.finding).collect(),
+                ruled_out,
+                hypotheses: causes.problem.design.groups.len(),
+                robot: causes.fitted.robot,
+            })
+        })?
+    };
+    with_encoder_inputs(about, nominal, settings, log, inadequate, compare)
+}
+
+/// Calls `work` with the inputs of a search between two encoders. `None` where no joint has two encoders.
+pub(crate) fn with_encoder_inputs<T>(
+    about: &Robot,
+    nominal: &Robot,
+    settings: &Settings,
+    log: &Log,
+    inadequate: &[Option<String>],
+    work: impl FnOnce(&Inputs) -> Result<T, DiagnosisError>,
+) -> Result<Option<T>, DiagnosisError> {
     let log = log.of_twist();
     let rows = log.rows();
     if !rows.contains(&true) {
@@ -51,17 +75,7 @@ pub(crate) fn compare_encoders(
     }
     let robot = &with_nominal_transmissions(about, nominal, &rows);
     let design = &Design::new(robot, &log)?;
-    let inputs = Inputs { nominal, robot, settings, log, design, inadequate };
-    inputs.with_dataset(|dataset| {
-        let causes = inputs.find_causes(dataset, &Silent)?;
-        let Findings { found, ruled_out, .. } = inputs.findings(dataset, &causes);
-        Ok(Some(SecondEncoder {
-            found: found.into_iter().map(|f| f.finding).collect(),
-            ruled_out,
-            hypotheses: causes.problem.design.groups.len(),
-            robot: causes.fitted.robot,
-        }))
-    })?
+    work(&Inputs { nominal, robot, settings, log, design, inadequate }).map(Some)
 }
 
 /// The robot `about` with the nominal transmissions of the joints of `rows`.

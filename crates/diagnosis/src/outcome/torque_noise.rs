@@ -90,6 +90,13 @@ impl TorqueNoise {
         (effort.hypot(encoders), source)
     }
 
+    /// RMS in the band of the effort's own noise of joint `j`, and of the noise of the encoders carried to torque (N·m
+    /// or N).
+    pub fn sources(&self, j: usize) -> [f64; 2] {
+        let Sources { effort, encoders, .. } = self.joints[j];
+        [effort, encoders]
+    }
+
     /// Frequencies (Hz) and densities of the noise of joint `j` behind the low-pass.
     pub fn spectrum(&self, j: usize) -> &[(f64, f64)] {
         &self.joints[j].spectrum
