@@ -87,6 +87,7 @@ pub fn corner() -> Corner {
         logs: 2,
         length_s: 30.0,
         repeats: false,
+        field: Vec::new(),
     }
 }
 

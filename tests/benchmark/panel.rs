@@ -6,7 +6,7 @@ use benchmark::{
 };
 use catalogue::EffectKind::{Backlash, CoulombFriction, Payload, TorqueOffset, ViscousFriction};
 use diagnosis::{EffectAt, Estimate, Finding, Verdict};
-use population::{Knowledge, MotionClass, Strength, TruthSheet};
+use population::{FieldFeature, Knowledge, MotionClass, Strength, TruthSheet};
 use report::Provenance;
 
 use crate::made_up::{FAINT, SEEN, answers, at, finding, sheet, stranger};
@@ -239,6 +239,18 @@ fn panel() -> Vec<Judgement> {
 
 fn row<'a>(tally: &'a PanelTally, side: &str) -> &'a PanelRow {
     tally.rows.iter().find(|row| row.side.to_string() == side).unwrap()
+}
+
+#[test]
+fn a_trial_is_in_the_row_of_everything_that_it_has_of_robots_in_use() {
+    let mut judgements = panel();
+    judgements[0].corner.field = vec![FieldFeature::WrongMass, FieldFeature::StrongFriction];
+    judgements[1].corner.field = vec![FieldFeature::StrongFriction];
+    let tally = PanelTally::of(&judgements);
+    let last = tally.rows.iter().rev().take(2).map(|row| (row.side.to_string(), row.trials));
+    let expected =
+        [("met with strong friction".to_owned(), 2), ("met with wrong mass".to_owned(), 1)];
+    assert_eq!(last.collect::<Vec<_>>(), expected);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use document::Document;
-use population::{ArmClass, CauseRole, MotionClass, PopulationSpec, TruthSheet, make};
+use population::{ArmClass, CauseRole, MotionClass, PopulationSpec, RobotShares, TruthSheet, make};
 use rayon::ThreadPoolBuilder;
 use simulator::scenario::Scenario;
 use simulator::simulate_noise_free;
@@ -24,6 +24,7 @@ pub fn short(class: ArmClass, causes: [usize; 2]) -> PopulationSpec {
         strangers: 0.5,
         clean: 0.0,
         spoilt: 0.0,
+        robots: RobotShares::default(),
         recorded: None,
     }
 }

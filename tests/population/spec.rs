@@ -36,7 +36,13 @@ fn what_no_workshop_has_is_underlined() {
         ("arms = []", "population.arms", "at least one kind was expected"),
         ("motions = []", "population.motions", "at least one kind was expected"),
         ("arms = [\"wham\"]", "population.arms", "wham"),
-        ("robots = 3", "population.robots", "robots"),
+        ("robot = 3", "population.robot", "robot"),
+        (
+            "robots = { wrong_urdfs = 1.5 }",
+            "population.robots.wrong_urdfs",
+            "1.5, a number from 0 to 1 was expected",
+        ),
+        ("robots = { worn_out = 0.1 }", "population.robots.worn_out", "worn_out"),
     ];
     for (line, key, words) in mistakes {
         let trials = if line.starts_with("trials") { "" } else { "trials = 3\n" };
@@ -66,4 +72,15 @@ fn recorded_trials_follow_the_simulated_ones_where_their_logs_are() {
     assert_ne!(spec.identity(), absent.identity());
     let larger = PopulationSpec { trials: 5, ..spec.clone() };
     assert_ne!(spec.identity(), larger.identity());
+}
+
+/// A population without what robots in use have is stored and told as it was before there was any.
+#[test]
+fn shares_of_zero_leave_no_word() {
+    let plain = read("[population]\ntrials = 3\n").unwrap();
+    let zero = read("[population]\ntrials = 3\nrobots = { turned_axes = 0.0 }\n").unwrap();
+    assert_eq!(plain.identity(), zero.identity());
+    assert!(!plain.identity().contains("robots"));
+    let some = read("[population]\ntrials = 3\nrobots = { turned_axes = 0.1 }\n").unwrap();
+    assert_ne!(plain.identity(), some.identity());
 }

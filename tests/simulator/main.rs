@@ -29,6 +29,7 @@ mod presliding_friction;
 mod replay;
 mod rig;
 mod rotor_inertia;
+mod run_effect;
 mod scenario;
 mod sealed;
 mod sensor_keys;

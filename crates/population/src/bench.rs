@@ -173,7 +173,7 @@ fn name(log: usize) -> String {
 }
 
 fn run(name: String, motion: MotionSpec) -> RunSpec {
-    RunSpec { name, motion, lead_in_s: LEAD_IN_S }
+    RunSpec { name, motion, lead_in_s: LEAD_IN_S, effect: Vec::new() }
 }
 
 fn pick<T: Copy>(

@@ -91,6 +91,40 @@ named! {
     }
 }
 
+named! {
+    /// What robots in use have and the ordinary draws of a trial lack.
+    FieldFeature {
+        /// A mass of the nominal model is off by a factor of 1.5 to 4.
+        WrongMass = "wrong_mass",
+        /// A centre of mass of the nominal model is off by centimetres, or in its sign.
+        WrongCentre = "wrong_centre",
+        /// Inertias of the nominal model are a placeholder.
+        PlaceholderInertia = "placeholder_inertia",
+        /// Inertias of the nominal model are in g mm2 or g cm2.
+        InertiaUnit = "inertia_unit",
+        /// The nominal model has a damping of 1 to 10 at every joint.
+        DummyDamping = "dummy_damping",
+        /// The nominal model has a tool that the arm lacks.
+        ToolTakenOff = "tool_taken_off",
+        /// The arm has a tool that the nominal model lacks.
+        ToolUnknown = "tool_unknown",
+        /// Coulomb friction of a tenth to a third of the RMS effort.
+        StrongFriction = "strong_friction",
+        /// All drives act late by the same time.
+        DelayedDrives = "delayed_drives",
+        /// The nominal model calls two joints by each other's name.
+        JointsExchanged = "joints_exchanged",
+        /// Two joints have each other's columns in the logs.
+        ColumnsExchanged = "columns_exchanged",
+        /// The nominal model has an axis turned round.
+        AxisTurned = "axis_turned",
+        /// The nominal model stands upright, the arm is tilted.
+        MountUnknown = "mount_unknown",
+        /// Half of the logs have a payload.
+        PayloadChanged = "payload_changed",
+    }
+}
+
 /// The class of a trial: its arm, motion, sensors and logs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Corner {
@@ -114,4 +148,7 @@ pub struct Corner {
     pub length_s: f64,
     /// Whether all logs are of one motion.
     pub repeats: bool,
+    /// What it has of robots in use, in the order of the list.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub field: Vec<FieldFeature>,
 }

@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::corner::{ArmClass, MotionClass, Origin};
+use crate::robot_shares::RobotShares;
 
 /// Version of the draws, the simulator and the oracle, from which logs and sheets follow beside a
 /// [`PopulationSpec`].
@@ -57,6 +58,9 @@ pub struct PopulationSpec {
     /// encoder.
     #[serde(default = "one_in_ten")]
     pub spoilt: f64,
+    /// Shares of trials with what robots in use have and all other draws lack; none where it is left out.
+    #[serde(default, skip_serializing_if = "RobotShares::is_none")]
+    pub robots: RobotShares,
     /// Recorded logs, where they are present.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recorded: Option<RecordedSpec>,
@@ -105,6 +109,10 @@ impl PopulationSpec {
         check.number("strangers", spec.strangers, [0.0, 1.0])?;
         check.number("clean", spec.clean, [0.0, 1.0])?;
         check.number("spoilt", spec.spoilt, [0.0, 1.0])?;
+        let robots = Check { document, key: &key.clone().key("robots") };
+        for (name, share) in spec.robots.by_key() {
+            robots.number(name, share, [0.0, 1.0])?;
+        }
         if let Some(recorded) = &mut spec.recorded {
             let path = key.clone().key("recorded").key("data");
             let folder = document.directory_of(&path).join(&recorded.data);

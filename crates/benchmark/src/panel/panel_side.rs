@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use population::{ArmClass, EffortClass, MotionClass, Origin};
+use population::{ArmClass, EffortClass, FieldFeature, MotionClass, Origin};
 use serde::{Serialize, Serializer};
 
 use crate::panel::judgement::Judgement;
@@ -21,7 +21,8 @@ pub struct PanelSide {
 }
 
 impl PanelSide {
-    /// Judgements by side: all of them, then by each property in turn. For each property a trial is in one side.
+    /// Judgements by side: all of them, then by each property in turn. For each property a trial is in one side; of
+    /// what robots in use have, it is in as many as it has.
     pub(crate) fn by_side(judgements: &[Judgement]) -> Vec<(Self, Vec<&Judgement>)> {
         let mut sides: BTreeMap<Self, Vec<&Judgement>> = BTreeMap::new();
         for judgement in judgements {
@@ -55,8 +56,11 @@ impl PanelSide {
             ("logs", logs),
             ("runs", (repeats, ["differ", "repeat"][repeats].to_owned())),
         ];
+        let met = names(FieldFeature::ALL, FieldFeature::name);
+        let met = corner.field.iter().map(|feature| ("met with", place(feature.name(), &met)));
+        let met = met.map(|side| (things.len(), side)).collect::<Vec<_>>();
         let side = |(thing, (name, (rank, kind)))| Self { order: [thing, rank], thing: name, kind };
-        things.into_iter().enumerate().map(side).collect()
+        things.into_iter().enumerate().chain(met).map(side).collect()
     }
 }
 

@@ -318,7 +318,12 @@ impl Checker<'_> {
         let mut motion = self.spec.outside.clone();
         motion.anchor(self.document.directory_of(&path));
         let lead_in_s = others.last().map_or(1.0, |run| run.lead_in_s);
-        Ok(RunSpec { name: LearningFigure::OUTSIDE.to_owned(), motion, lead_in_s })
+        Ok(RunSpec {
+            name: LearningFigure::OUTSIDE.to_owned(),
+            motion,
+            lead_in_s,
+            effect: Vec::new(),
+        })
     }
 
     fn same_joints(&self, simulated: &PaperPlant, real: &PaperPlant) -> Result<(), DocumentError> {

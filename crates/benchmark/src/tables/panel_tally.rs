@@ -10,8 +10,8 @@ use crate::tables::stranger_row::StrangerRow;
 /// Results of the trials of a population.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PanelTally {
-    /// All trials, then those by arm, origin, motion, effort, encoder, number of visible causes, number of logs, and
-    /// by whether runs repeat.
+    /// All trials, then those by arm, origin, motion, effort, encoder, number of visible causes, number of logs, by
+    /// whether runs repeat, and by what of robots in use they have.
     pub rows: Vec<PanelRow>,
     /// Causes by kind.
     pub kinds: Vec<KindRow>,

@@ -50,7 +50,8 @@ fn moving(joint: &ChainJoint, parent: &str, limit: f64, dynamics: Option<UrdfDyn
     )
 }
 
-fn fixed_joint(name: &str, parent: &str, child: &str, pose: &Isometry3<f64>) -> String {
+/// A joint that does not move.
+pub(crate) fn fixed_joint(name: &str, parent: &str, child: &str, pose: &Isometry3<f64>) -> String {
     format!(
         "  <joint name=\"{name}\" type=\"fixed\"><parent link=\"{parent}\"/><child link=\"{child}\"/>{}</joint>\n",
         origin(pose)
@@ -58,10 +59,25 @@ fn fixed_joint(name: &str, parent: &str, child: &str, pose: &Isometry3<f64>) -> 
 }
 
 fn link(body: &SampledBody) -> String {
-    let Inertia { mass, com_in_link, about_com } = &body.inertia;
-    let mut text = format!(
-        "  <link name=\"{}\">\n    <inertial><origin xyz=\"{}\" rpy=\"0 0 0\"/><mass value=\"{}\"/>\n      <inertia",
+    let shape = match body.hull {
+        Hull::Box([x, y, z]) => format!("<box size=\"{x:.4} {y:.4} {z:.4}\"/>"),
+        Hull::Cylinder([d, l]) => {
+            format!("<cylinder radius=\"{:.4}\" length=\"{l:.4}\"/>", 0.5 * d)
+        }
+    };
+    format!(
+        "  <link name=\"{}\">\n    {}\n    <visual>{}<geometry>{shape}</geometry></visual>\n  </link>\n",
         body.name,
+        inertial(&body.inertia),
+        origin(&body.link_from_hull)
+    )
+}
+
+/// A body as the `<inertial>` of its link.
+pub(crate) fn inertial(body: &Inertia) -> String {
+    let Inertia { mass, com_in_link, about_com } = body;
+    let mut text = format!(
+        "<inertial><origin xyz=\"{}\" rpy=\"0 0 0\"/><mass value=\"{}\"/>\n      <inertia",
         triple(com_in_link),
         round_to_digits(*mass, 6),
     );
@@ -76,16 +92,7 @@ fn link(body: &SampledBody) -> String {
         // Writing to a string cannot fail.
         let _ = write!(text, " {key}=\"{}\"", round_to_digits(about_com[at], 7));
     }
-    let shape = match body.hull {
-        Hull::Box([x, y, z]) => format!("<box size=\"{x:.4} {y:.4} {z:.4}\"/>"),
-        Hull::Cylinder([d, l]) => {
-            format!("<cylinder radius=\"{:.4}\" length=\"{l:.4}\"/>", 0.5 * d)
-        }
-    };
-    text + &format!(
-        "/></inertial>\n    <visual>{}<geometry>{shape}</geometry></visual>\n  </link>\n",
-        origin(&body.link_from_hull)
-    )
+    text + "/></inertial>"
 }
 
 fn origin(pose: &Isometry3<f64>) -> String {

@@ -13,7 +13,7 @@ pub(crate) struct Friction {
 }
 
 /// Largest dry friction that is drawn (N m or N), an upper bound for drives of these arms.
-const MOST_DRY: f64 = 900.0;
+pub(crate) const MOST_DRY: f64 = 900.0;
 
 /// Draws everyday friction at every joint: half to twice the drive's typical dry level, and viscous friction
 /// that at the joint's largest speed is a tenth of that level to all of it.

@@ -20,6 +20,7 @@ use crate::spec::PopulationSpec;
 use crate::text_file::write_text;
 use crate::trial::background::{Friction, effects, everyday};
 use crate::trial::differences::{Drives, differences};
+use crate::trial::field::faults::FieldFaults;
 use crate::trial::hidden::HiddenThings;
 use crate::trial::known::{NominalKnowledge, describe};
 use crate::trial::pilot::Pilot;
@@ -87,13 +88,16 @@ fn make_once(
     random: &mut ChaCha8Rng,
 ) -> Result<TruthSheet, PopulationError> {
     let clean = random.random_bool(spec.clean);
-    let bench = draw_bench(&wishes(spec, random), random)?;
+    let mut bench = draw_bench(&wishes(spec, random), random)?;
     let model = if clean { Model::Right } else { Model::AsModelsAre };
-    let draft = Draft::new(bench, model, folder, seed, random)?;
+    let shares = if clean { spec.robots.without_errors() } else { spec.robots };
+    let faults = FieldFaults::draw(&shares, &mut bench, random)?;
+    let draft = Draft::new((bench, faults), model, folder, seed, random)?;
     let [least, most] = spec.causes;
     let causes = if clean { 0 } else { random.random_range(least..=most) };
     let strangers = usize::from(!clean && random.random_bool(spec.strangers));
-    let hidden = draft.hide(causes, strangers, random)?;
+    let mut hidden = draft.hide(causes, strangers, random)?;
+    draft.faults.hide(&mut hidden);
     let step = draft.step_ms(&hidden)?;
     let spoilt = !clean && random.random_bool(spec.spoilt);
     let spoilt = spoilt.then(|| Spoilt::draw(&draft.truth.robot, random));
@@ -141,6 +145,7 @@ enum Model {
 /// A trial before it is simulated.
 struct Draft {
     bench: LabBench,
+    faults: FieldFaults,
     seed: u64,
     truth: Loaded,
     truth_file: PathBuf,
@@ -151,7 +156,7 @@ struct Draft {
 
 impl Draft {
     fn new(
-        bench: LabBench,
+        (bench, faults): (LabBench, FieldFaults),
         model: Model,
         folder: &Path,
         seed: u64,
@@ -164,11 +169,15 @@ impl Draft {
             Ok::<_, PopulationError>((Robot::load(&file)?, file))
         };
         let (truth, truth_file) = in_folder("truth", &bench.truth)?;
-        let friction = everyday(&truth.robot, &bench.friction, random);
+        let friction = faults.friction(everyday(&truth.robot, &bench.friction, random));
         let known = match model {
             _ if bench.sensors.effort == EffortSource::Link => NominalKnowledge::BodiesAlone,
             Model::Right => NominalKnowledge::Exactly,
-            Model::AsModelsAre if random.random_bool(ROUGHLY_KNOWN) => NominalKnowledge::Roughly,
+            Model::AsModelsAre
+                if random.random_bool(ROUGHLY_KNOWN) && !faults.states_friction() =>
+            {
+                NominalKnowledge::Roughly
+            }
             Model::AsModelsAre => NominalKnowledge::AsDescribed,
         };
         let files = match model {
@@ -179,7 +188,7 @@ impl Draft {
         let files = describe(files, &loaded, &friction, known, random)?;
         let (nominal, _) = in_folder("nominal", &files)?;
         let noise = noise(&bench, &truth.robot);
-        Ok(Self { bench, seed, truth, truth_file, nominal, friction, noise })
+        Ok(Self { bench, faults, seed, truth, truth_file, nominal, friction, noise })
     }
 
     fn friction(&self) -> Vec<EffectSpec> {
@@ -287,7 +296,8 @@ impl Draft {
             EffortSource::Commanded | EffortSource::Motor => Drives::Seen,
         };
         let models = [&self.truth.robot, &self.nominal.robot];
-        let differ = differences(models[0], &self.friction, models[1], &seen.runs, drives);
+        let mut differ = differences(models[0], &self.friction, models[1], &seen.runs, drives);
+        differ.extend(self.faults.differences(models[0], models[1], &seen.runs));
         let (causes, mut strangers) = seen.strengths(&self.truth.robot, differ, &self.noise);
         let scales = seen.scales(&self.truth.robot, &self.noise);
         if let Some(spoilt) = spoilt {
@@ -295,6 +305,8 @@ impl Draft {
             strangers.push(spoilt.true_stranger(&self.truth.robot, &clean, &scales));
             spoilt.spoil(&self.truth.robot, &mut noisy.runs);
         }
+        strangers.extend(self.faults.strangers(&self.truth.robot, &seen.runs, &scales));
+        self.faults.spoil(&mut noisy.runs);
         let joints = self.truth.robot.joint_names().map(str::to_owned).collect();
         let sheet = TruthSheet {
             seed: self.seed,
@@ -333,6 +345,7 @@ impl Draft {
             logs: runs.len(),
             length_s: runs.iter().map(length).sum(),
             repeats: self.bench.repeats,
+            field: self.faults.features.clone(),
         }
     }
 }

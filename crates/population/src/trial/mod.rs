@@ -4,6 +4,7 @@ pub(crate) mod any;
 pub(crate) mod background;
 pub(crate) mod differences;
 pub(crate) mod draw;
+pub(crate) mod field;
 pub(crate) mod hidden;
 pub(crate) mod known;
 pub(crate) mod make;

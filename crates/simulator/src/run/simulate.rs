@@ -1,3 +1,5 @@
+use std::collections::BTreeMap;
+
 use logs::Run;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -27,6 +29,8 @@ pub struct Simulation {
     pub runs: Vec<Run>,
     /// Effects that were put in.
     pub truth: Vec<Truth>,
+    /// Effects that were put in during one run alone, by the name of the run.
+    pub truth_of_runs: BTreeMap<String, Vec<Truth>>,
     /// Strangers that were put in.
     pub strangers: Vec<StrangerTruth>,
 }
@@ -68,12 +72,25 @@ pub fn simulate_only(
     Ok(Simulation {
         runs: runs.collect::<Result<_, _>>()?,
         truth: effects.iter().map(EffectSpec::truth).collect(),
+        truth_of_runs: truth_of_runs(scenario, wanted),
         strangers: scenario.strangers().iter().map(StrangerSpec::truth).collect(),
     })
 }
 
+/// What the `wanted` runs have in them beside the effects of the scenario.
+fn truth_of_runs(
+    scenario: &Scenario,
+    wanted: &dyn Fn(&str) -> bool,
+) -> BTreeMap<String, Vec<Truth>> {
+    let has_own = |run: &&ScenarioRun| wanted(&run.name) && !run.effects.is_empty();
+    let own =
+        |run: &ScenarioRun| (run.name.clone(), run.effects.iter().map(EffectSpec::truth).collect());
+    scenario.runs().iter().filter(has_own).map(own).collect()
+}
+
 /// Simulates the `wanted` runs of a scenario without sensor errors, with these effects and strangers
-/// in place of the scenario's. Arms with and without one cause can so be compared.
+/// in place of the scenario's. Arms with and without one cause can so be compared. Effects of one run alone stay
+/// in that run.
 ///
 /// Effort source, side of the position, second encoders and rate of the log are the scenario's.
 /// Noise, resolution, lag, jitter and lost rows are left out, and the logged velocity is the true one.
@@ -197,6 +214,8 @@ fn follow_run(
     on_second: &dyn Fn(),
 ) -> Result<Vec<ControlRow>, SimulatorError> {
     let robot = scenario.robot();
+    let effects = [causes.effects, run.effects.as_slice()].concat();
+    let causes = ArmCauses { effects: &effects, ..causes };
     let mut simulator = simulator(robot, causes, sensors, scenario.stepping())?;
     let following = Following { gains: scenario.gains(), robot, run, longest_s };
     follow(&mut simulator, &following, on_second)

@@ -1,3 +1,4 @@
+use std::collections::BTreeMap;
 use std::io::{ErrorKind, Write};
 use std::path::Path;
 
@@ -43,10 +44,11 @@ pub fn write(
     simulation: &Simulation,
     format: LogFormat,
 ) -> Result<(), SimulatorError> {
-    let coded = simulation.truth.iter().map(|truth| Coded { code: truth.effect.code(), truth });
+    let of_runs = simulation.truth_of_runs.iter();
     let content = TruthFile {
         seed: scenario.seed(),
-        effects: coded.collect(),
+        effects: Coded::all(&simulation.truth),
+        runs: of_runs.map(|(run, truths)| (run.as_str(), Coded::all(truths))).collect(),
         strangers: &simulation.strangers,
     };
     let truth = serde_json::to_string_pretty(&content).unwrap_or_default() + "\n";
@@ -76,6 +78,9 @@ pub fn write(
 struct TruthFile<'a> {
     seed: u64,
     effects: Vec<Coded<'a>>,
+    /// By the name of a run, what it has beside these.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    runs: BTreeMap<&'a str, Vec<Coded<'a>>>,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     strangers: &'a [StrangerTruth],
 }
@@ -86,4 +91,10 @@ struct Coded<'a> {
     code: &'static str,
     #[serde(flatten)]
     truth: &'a Truth,
+}
+
+impl<'a> Coded<'a> {
+    fn all(truths: &'a [Truth]) -> Vec<Self> {
+        truths.iter().map(|truth| Self { code: truth.effect.code(), truth }).collect()
+    }
 }

@@ -37,6 +37,8 @@ pub struct ScenarioRun {
     pub motion: Motion,
     /// Time for which the arm is held before the log begins (s).
     pub lead_in_s: f64,
+    /// Effects of this run alone.
+    pub effects: Vec<EffectSpec>,
 }
 
 impl Scenario {
@@ -344,14 +346,16 @@ impl Checker<'_> {
     }
 
     fn effects(&self) -> Result<(), DocumentError> {
-        let Err((index, mistake)) =
-            effects::chain::inject_all(&self.spec.effect, &self.loaded.robot)
-        else {
+        self.effects_at(&KeyPath::root().key("effect"), &self.spec.effect)
+    }
+
+    /// Refuses effects, stated at `path`, that the robot cannot have.
+    fn effects_at(&self, path: &KeyPath, stated: &[EffectSpec]) -> Result<(), DocumentError> {
+        let Err((index, mistake)) = effects::chain::inject_all(stated, &self.loaded.robot) else {
             return Ok(());
         };
-        let name = self.spec.effect[index].kind().name();
-        let path = KeyPath::root().key("effect").index(index).key(name);
-        Err(self.mistake_in(path, mistake))
+        let name = stated[index].kind().name();
+        Err(self.mistake_in(path.clone().index(index).key(name), mistake))
     }
 
     fn strangers(&self) -> Result<(), DocumentError> {
@@ -408,13 +412,19 @@ impl Checker<'_> {
                 return Err(self.mistake(&path.key("name"), message).into());
             }
             self.within(&path.key("lead_in_s"), run.lead_in_s, 0.0, 600.0)?;
+            self.effects_at(&path.key("effect"), &run.effect)?;
             let path = path.key("motion");
             let folder = self.document.directory_of(&path);
             let motion = run
                 .motion
                 .build(&self.loaded.robot, folder)
                 .map_err(|error| self.motion_mistake(&path, &error))?;
-            runs.push(ScenarioRun { name: run.name.clone(), motion, lead_in_s: run.lead_in_s });
+            runs.push(ScenarioRun {
+                name: run.name.clone(),
+                motion,
+                lead_in_s: run.lead_in_s,
+                effects: run.effect.clone(),
+            });
         }
         Ok(runs)
     }

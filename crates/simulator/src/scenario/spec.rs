@@ -207,6 +207,10 @@ pub struct RunSpec {
     /// Time that the arm is held at the start of the motion before the log begins (s).
     #[serde(default = "usual_lead_in")]
     pub lead_in_s: f64,
+    /// Effects put into the arm during this run alone, beside those of the scenario: a payload that changes
+    /// between runs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub effect: Vec<EffectSpec>,
 }
 
 fn usual_lead_in() -> f64 {
