@@ -36,6 +36,9 @@ fn what_no_workshop_has_is_underlined() {
         ("arms = []", "population.arms", "at least one kind was expected"),
         ("motions = []", "population.motions", "at least one kind was expected"),
         ("arms = [\"wham\"]", "population.arms", "wham"),
+        ("instruments.rates_hz = [0.5]", "instruments.rates_hz", "0.5, rates from 1 to 10000"),
+        ("instruments.encoder_bits = [12, 30]", "instruments.encoder_bits", "30, whole numbers"),
+        ("instruments.effort_kinds = [\"volt\"]", "instruments.effort_kinds", "volt"),
         ("robots = 3", "population.robots", "robots"),
     ];
     for (line, key, words) in mistakes {

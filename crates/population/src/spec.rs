@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::corner::{ArmClass, MotionClass, Origin};
+use crate::instruments::Instruments;
 
 /// Version of the draws, the simulator and the oracle, from which logs and sheets follow beside a
 /// [`PopulationSpec`].
@@ -57,6 +58,9 @@ pub struct PopulationSpec {
     /// encoder.
     #[serde(default = "one_in_ten")]
     pub spoilt: f64,
+    /// What logs are read with, in place of what arms of a class have: a ledger of false alarms crosses them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub instruments: Option<Instruments>,
     /// Recorded logs, where they are present.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recorded: Option<RecordedSpec>,
@@ -105,6 +109,7 @@ impl PopulationSpec {
         check.number("strangers", spec.strangers, [0.0, 1.0])?;
         check.number("clean", spec.clean, [0.0, 1.0])?;
         check.number("spoilt", spec.spoilt, [0.0, 1.0])?;
+        spec.instruments.iter().try_for_each(|all| all.check(document, key))?;
         if let Some(recorded) = &mut spec.recorded {
             let path = key.clone().key("recorded").key("data");
             let folder = document.directory_of(&path).join(&recorded.data);
