@@ -79,4 +79,4 @@ pub use trials::record::Record;
 pub use trials::scenario_campaign::{CampaignSpec, ScenarioCampaign};
 pub use trials::scored::Scored;
 pub use trials::trial::{Trial, judge};
-pub use trials::work::{TrialLogs, WorkProgress, Workers, work};
+pub use trials::work::{ChosenTrials, TrialLogs, WorkProgress, Workers, work};
