@@ -1,6 +1,7 @@
 //! Campaigns of blind trials: made, scored by the truth, compared; and the baselines.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may stop at the first surprise")]
 
+mod alarms;
 mod baselines;
 mod campaign;
 mod made_up;

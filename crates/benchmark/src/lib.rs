@@ -11,9 +11,11 @@
 //!
 //! - `panel` judges one trial of a population by its truth, `trials` plans and makes campaigns;
 //! - `tables` adds trials up, `paired` compares two results of the same trials;
+//! - `alarms` is what was said of clean logs, corner by corner;
 //! - `baselines` are two simple methods, `statistics` shares and rates with their intervals;
 //! - `paper` measures the figures of Nguyen-Tuong & Peters 2010, `reports` shows all of it.
 
+mod alarms;
 mod baselines;
 mod error;
 mod paired;
@@ -25,6 +27,10 @@ mod tables;
 mod trial_folder;
 mod trials;
 
+pub use alarms::alarm::Alarm;
+pub use alarms::alarm_ledger::AlarmLedger;
+pub use alarms::alarm_row::AlarmRow;
+pub use alarms::false_name::FalseName;
 pub use baselines::baseline::Baseline;
 pub use baselines::least_squares::least_squares;
 pub use baselines::two_questions::two_questions;
