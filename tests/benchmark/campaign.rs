@@ -4,7 +4,7 @@ use std::sync::Mutex;
 use std::time::Duration;
 
 use benchmark::{
-    Campaign, CampaignFolder, Hidden, Part, Record, TrialLogs, WorkProgress, Workers,
+    Campaign, CampaignFolder, ChosenTrials, Hidden, Part, Record, TrialLogs, WorkProgress, Workers,
     read_finished, work,
 };
 use catalogue::EffectKind::CoulombFriction;
@@ -113,7 +113,13 @@ fn planned(root: &Path) -> CampaignFolder {
 fn work_that_is_stopped_ends_after_the_trial_and_keeps_logs_where_they_are_wanted() {
     let root = tempfile::tempdir().unwrap();
     let folder = planned(root.path());
-    let workers = Workers { jobs: 1, part: Part::WHOLE, logs: TrialLogs::Kept, store: None };
+    let workers = Workers {
+        jobs: 1,
+        part: Part::WHOLE,
+        logs: TrialLogs::Kept,
+        store: None,
+        chosen: ChosenTrials::All,
+    };
     let progress = OnlyOne::default();
     work(&folder, &workers, &progress).unwrap();
     assert_eq!(*progress.0.lock().unwrap(), [0]);
@@ -134,8 +140,13 @@ fn a_trial_that_another_process_makes_is_left_to_it() {
     fs::create_dir(root.path().join("work")).unwrap();
     let held = fs::File::create(root.path().join("work/00000.lock")).unwrap();
     held.lock().unwrap();
-    let workers =
-        Workers { jobs: 1, part: "1/2".parse().unwrap(), logs: TrialLogs::Removed, store: None };
+    let workers = Workers {
+        jobs: 1,
+        part: "1/2".parse().unwrap(),
+        logs: TrialLogs::Removed,
+        store: None,
+        chosen: ChosenTrials::All,
+    };
     work(&folder, &workers, &OnlyOne::default()).unwrap();
     assert_eq!(folder.remaining(Part::WHOLE).unwrap(), [0, 1]);
     drop(held);
@@ -166,7 +177,13 @@ impl WorkProgress for Unlocking<'_> {
 fn a_lock_whose_file_is_gone_is_no_reason_to_end_the_work() {
     let root = tempfile::tempdir().unwrap();
     let folder = planned(root.path());
-    let workers = Workers { jobs: 1, part: Part::WHOLE, logs: TrialLogs::Removed, store: None };
+    let workers = Workers {
+        jobs: 1,
+        part: Part::WHOLE,
+        logs: TrialLogs::Removed,
+        store: None,
+        chosen: ChosenTrials::All,
+    };
     work(&folder, &workers, &Unlocking(root.path())).unwrap();
     assert_eq!(folder.remaining(Part::WHOLE).unwrap(), [0; 0]);
 }
@@ -177,7 +194,13 @@ fn a_store_is_for_populations_alone() {
     let root = tempfile::tempdir().unwrap();
     let folder = planned(root.path());
     let store = Some(root.path().join("store"));
-    let workers = Workers { jobs: 1, part: Part::WHOLE, logs: TrialLogs::Removed, store };
+    let workers = Workers {
+        jobs: 1,
+        part: Part::WHOLE,
+        logs: TrialLogs::Removed,
+        store,
+        chosen: ChosenTrials::All,
+    };
     let refused = work(&folder, &workers, &OnlyOne::default()).unwrap_err().to_string();
     assert!(refused.contains("a store holds logs of populations"), "{refused}");
     assert_eq!(folder.remaining(Part::WHOLE).unwrap(), [0, 1]);

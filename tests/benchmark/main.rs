@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may stop at the first surprise")]
 
 mod account;
+mod alarms;
 mod baselines;
 mod campaign;
 mod made_up;

@@ -1,8 +1,8 @@
 //! Judgements of answers that are made up, by sheets that are written down here.
 
 use benchmark::{
-    Fraction, HeldOut, Judgement, MergedPanel, PANEL_SCHEMA, PanelRow, PanelTally, Rate, Record,
-    Share, TextTable,
+    AlarmLedger, Fraction, HeldOut, Judgement, MergedPanel, PANEL_SCHEMA, PanelRow, PanelTally,
+    Rate, Record, Share, TextTable,
 };
 use catalogue::EffectKind::{Backlash, CoulombFriction, Payload, TorqueOffset, ViscousFriction};
 use diagnosis::{EffectAt, Estimate, Finding, Verdict};
@@ -359,6 +359,7 @@ fn the_page_shows_every_corner_and_opens_without_scripts() {
         counts: Vec::new(),
         failures: Vec::new(),
         tally: PanelTally::of(&panel()),
+        alarms: AlarmLedger::of(&panel()),
     };
     let provenance = Provenance {
         program: "plumbline",

@@ -5,8 +5,8 @@ use std::path::Path;
 use std::time::Duration;
 
 use benchmark::{
-    Campaign, CampaignFolder, Judgement, PanelTally, Part, Record, TrialLogs, WorkProgress,
-    Workers, work,
+    Campaign, CampaignFolder, ChosenTrials, Judgement, PanelTally, Part, Record, TrialLogs,
+    WorkProgress, Workers, work,
 };
 use checks::arms::workspace_root;
 use document::Document;
@@ -38,7 +38,13 @@ fn the_small_panel_is_judged_as_well_as_today() {
     let folder = tempfile::tempdir().unwrap();
     let campaign = Campaign::from_document(&document).unwrap();
     let folder = CampaignFolder::plan(&folder.path().join("panel"), campaign).unwrap();
-    let workers = Workers { jobs: 2, part: Part::WHOLE, logs: TrialLogs::Removed, store: None };
+    let workers = Workers {
+        jobs: 2,
+        part: Part::WHOLE,
+        logs: TrialLogs::Removed,
+        store: None,
+        chosen: ChosenTrials::All,
+    };
     work(&folder, &workers, &Quiet).unwrap();
 
     let records = folder.manifest().unwrap().records;

@@ -3,6 +3,7 @@
 
 #[cfg(target_os = "linux")]
 mod alarm;
+mod another_engine;
 mod arm;
 mod bad_input;
 #[cfg(unix)]

@@ -20,6 +20,7 @@ fn wishes(classes: &[ArmClass], motions: &[MotionClass]) -> BenchWishes {
         motions: motions.to_vec(),
         logs: [1, 8],
         log_s: [5.0, 60.0],
+        instruments: None,
     }
 }
 

@@ -25,6 +25,7 @@ pub fn short(class: ArmClass, causes: [usize; 2]) -> PopulationSpec {
         clean: 0.0,
         spoilt: 0.0,
         robots: RobotShares::default(),
+        instruments: None,
         recorded: None,
     }
 }

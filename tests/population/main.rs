@@ -3,6 +3,7 @@
 
 mod bench;
 mod field;
+mod instruments;
 mod made;
 mod recorded;
 mod spec;

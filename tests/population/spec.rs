@@ -43,6 +43,9 @@ fn what_no_workshop_has_is_underlined() {
             "1.5, a number from 0 to 1 was expected",
         ),
         ("robots = { worn_out = 0.1 }", "population.robots.worn_out", "worn_out"),
+        ("instruments.rates_hz = [0.5]", "instruments.rates_hz", "0.5, rates from 1 to 10000"),
+        ("instruments.encoder_bits = [12, 30]", "instruments.encoder_bits", "30, whole numbers"),
+        ("instruments.effort_kinds = [\"volt\"]", "instruments.effort_kinds", "volt"),
     ];
     for (line, key, words) in mistakes {
         let trials = if line.starts_with("trials") { "" } else { "trials = 3\n" };

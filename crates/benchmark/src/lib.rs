@@ -12,10 +12,12 @@
 //! - `panel` judges one trial of a population by its truth, `trials` plans and makes campaigns;
 //! - `account` says at which stage every missed cause and every false finding of a campaign is lost;
 //! - `tables` adds trials up, `paired` compares two results of the same trials;
+//! - `alarms` is what was said of clean logs, corner by corner;
 //! - `baselines` are two simple methods, `statistics` shares and rates with their intervals;
 //! - `paper` measures the figures of Nguyen-Tuong & Peters 2010, `reports` shows all of it.
 
 mod account;
+mod alarms;
 mod baselines;
 mod error;
 mod paired;
@@ -33,6 +35,10 @@ pub use account::loss_stage::LossStage;
 pub use account::lost_name::{LostName, NameError};
 pub use account::oracle_noise::OracleEffortNoise;
 pub use account::trial_account::TrialAccount;
+pub use alarms::alarm::Alarm;
+pub use alarms::alarm_ledger::AlarmLedger;
+pub use alarms::alarm_row::AlarmRow;
+pub use alarms::false_name::FalseName;
 pub use baselines::baseline::Baseline;
 pub use baselines::least_squares::least_squares;
 pub use baselines::two_questions::two_questions;
@@ -87,4 +93,4 @@ pub use trials::record::Record;
 pub use trials::scenario_campaign::{CampaignSpec, ScenarioCampaign};
 pub use trials::scored::Scored;
 pub use trials::trial::{Trial, judge};
-pub use trials::work::{TrialLogs, WorkProgress, Workers, work};
+pub use trials::work::{ChosenTrials, TrialLogs, WorkProgress, Workers, work};

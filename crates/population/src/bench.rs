@@ -8,6 +8,7 @@ use crate::arms::make::Make;
 use crate::corner::{ArmClass, EffortClass, MotionClass};
 use crate::dice::{between, happens, log_uniform_between, weighted_index};
 use crate::error::PopulationError;
+use crate::instruments::{Instrument, Instruments};
 use crate::motions::ground::Ground;
 use crate::motions::log_plan::LogPlan;
 use crate::robot_files::RobotFiles;
@@ -57,6 +58,8 @@ pub struct BenchWishes {
     pub logs: [usize; 2],
     /// Least and largest length of a log (s).
     pub log_s: [f64; 2],
+    /// What the logs are read with, where it is not what arms of the class have.
+    pub instruments: Option<Instruments>,
 }
 
 /// Draws a bench.
@@ -73,8 +76,10 @@ pub fn draw_bench(
     let motion = pick("motions", &wishes.motions, random)?;
     // Settled once, so that arms which are hard to move are not rare.
     let count = 1 + weighted_index(random, &Make::of(class).joints);
+    let instrument =
+        wishes.instruments.as_ref().map_or_else(Instrument::default, |all| all.draw(random));
     for _ in 0..TRIES {
-        let arm = SampledArm::draw(class, count, random)?;
+        let arm = SampledArm::draw(class, count, instrument, random)?;
         let sensors = sensors::draw(class, &arm, random);
         let friction = arm.friction(class, random);
         if let Some(moved) = draw_runs(&arm, motion, wishes, random)? {

@@ -88,6 +88,8 @@ named! {
         Transplant = "transplant",
         /// Recorded.
         Recorded = "recorded",
+        /// Of another engine that moved the same arm along the same motions.
+        AnotherEngine = "another_engine",
     }
 }
 

@@ -49,6 +49,7 @@ fn encoders(class: ArmClass, arm: &SampledArm, spec: &mut SensorSpec, random: &m
         // Motor encoders of 4096 counts behind ratios of 18 to 42.
         ArmClass::Wam => one_of(random, [16, 17]),
     };
+    let bits = arm.electronics.encoder_bits.map_or(bits, i32::from);
     let step = std::f64::consts::TAU / 2_f64.powi(bits);
     let noise = between(random, [0.0, 0.7]);
     let second = matches!(class, ArmClass::Cobot | ArmClass::Industrial)

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::corner::{ArmClass, MotionClass, Origin};
 use crate::robot_shares::RobotShares;
+use crate::instruments::Instruments;
 
 /// Version of the draws, the simulator and the oracle, from which logs and sheets follow beside a
 /// [`PopulationSpec`].
@@ -61,6 +62,9 @@ pub struct PopulationSpec {
     /// Shares of trials with what robots in use have and all other draws lack; none where it is left out.
     #[serde(default, skip_serializing_if = "RobotShares::is_none")]
     pub robots: RobotShares,
+    /// What logs are read with, in place of what arms of a class have: a ledger of false alarms crosses them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub instruments: Option<Instruments>,
     /// Recorded logs, where they are present.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recorded: Option<RecordedSpec>,
@@ -113,6 +117,7 @@ impl PopulationSpec {
         for (name, share) in spec.robots.by_key() {
             robots.number(name, share, [0.0, 1.0])?;
         }
+        spec.instruments.iter().try_for_each(|all| all.check(document, key))?;
         if let Some(recorded) = &mut spec.recorded {
             let path = key.clone().key("recorded").key("data");
             let folder = document.directory_of(&path).join(&recorded.data);

@@ -100,6 +100,12 @@ impl Store {
         made.map(|()| Kept { folder, came })
     }
 
+    /// Whether it has the simulated trial of a population with a seed.
+    pub fn holds(&self, spec: &PopulationSpec, seed: u64) -> bool {
+        let key = key(spec, seed);
+        whole(&self.root.join(&key[..2]).join(&key)).is_ok()
+    }
+
     fn fill(
         &self,
         spec: &PopulationSpec,

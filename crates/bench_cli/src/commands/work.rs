@@ -2,7 +2,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::thread::available_parallelism;
 
-use benchmark::{CampaignFolder, Part, TrialLogs, Workers, work};
+use benchmark::{CampaignFolder, ChosenTrials, Part, TrialLogs, Workers, work};
 use cli::{Line, print};
 
 use crate::commands::work_line::WorkLine;
@@ -28,6 +28,9 @@ pub struct Arguments {
     /// diagnosis is judged without a simulation
     #[arg(long, value_name = "DIR")]
     store: Option<PathBuf>,
+    /// Make only the trials whose logs the store has, and simulate none
+    #[arg(long, requires = "store")]
+    stored: bool,
     /// Print nothing but errors
     #[arg(long)]
     quiet: bool,
@@ -38,7 +41,8 @@ impl Arguments {
     fn workers(&self) -> Workers {
         let jobs = self.jobs.or(available_parallelism().ok()).map_or(1, NonZeroUsize::get);
         let logs = if self.keep { TrialLogs::Kept } else { TrialLogs::Removed };
-        Workers { jobs, part: self.part, logs, store: self.store.clone() }
+        let chosen = if self.stored { ChosenTrials::Stored } else { ChosenTrials::All };
+        Workers { jobs, part: self.part, logs, store: self.store.clone(), chosen }
     }
 }
 

@@ -1,5 +1,6 @@
 use serde::Serialize;
 
+use crate::alarms::alarm_ledger::AlarmLedger;
 use crate::panel::judgement::Judgement;
 use crate::tables::panel_tally::PanelTally;
 use crate::trials::campaign_folder::{CampaignFolder, Manifest};
@@ -23,25 +24,29 @@ pub struct MergedPanel {
     /// How well the other trials were answered.
     #[serde(flatten)]
     pub tally: PanelTally,
+    /// What was said of clean logs.
+    pub alarms: AlarmLedger,
 }
 
 impl MergedPanel {
     /// The results of a campaign, independent of who made the trials and of their order.
     pub fn new(folder: &CampaignFolder, made: &Manifest) -> Self {
         let judged = made.records.values().filter_map(|record| record.judgement().cloned());
+        let judged: Vec<Judgement> = judged.collect();
         Self {
             schema: PANEL_SCHEMA,
             campaign: folder.hash().to_owned(),
             counts: KindCount::all(folder, made),
             failures: Failure::all(made),
-            tally: PanelTally::of(&judged.collect::<Vec<Judgement>>()),
+            tally: PanelTally::of(&judged),
+            alarms: AlarmLedger::of(&judged),
         }
     }
 
-    /// Numbers of trials, and the tables.
+    /// Numbers of trials, the tables, and the ledger of false alarms.
     pub fn text(&self) -> String {
         let counts = KindCount::table(&self.counts);
         let failures = self.failures.iter().map(Failure::words).collect::<String>();
-        format!("{}\n{}{failures}", counts.text(1), self.tally.text())
+        format!("{}\n{}{}{failures}", counts.text(1), self.tally.text(), self.alarms.text())
     }
 }

@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
 use document::{Document, KeyPath};
-use population::{PopulationSpec, Remade, Store};
+use population::{Origin, PopulationSpec, Remade, Store};
 use schemars::JsonSchema;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
@@ -129,6 +129,17 @@ impl Campaign {
         match self {
             Self::Scenario(campaign) => campaign.trial(task, scenario).is_logged(folder),
             Self::Population(_) => false,
+        }
+    }
+
+    /// Whether a store has the logs of a task.
+    pub(super) fn is_stored(&self, task: usize, store: Option<&Store>) -> bool {
+        match (self, store) {
+            (Self::Population(campaign), Some(store)) => {
+                let (spec, (_, seed)) = (&campaign.population, self.task(task));
+                spec.origin(task) == Origin::Simulated && store.holds(spec, seed)
+            }
+            _ => false,
         }
     }
 

@@ -32,6 +32,17 @@ pub struct Workers {
     pub logs: TrialLogs,
     /// A folder with logs of a population. Logs in it are read, and missing ones are added.
     pub store: Option<PathBuf>,
+    /// Which trials are made.
+    pub chosen: ChosenTrials,
+}
+
+/// Which trials of a part are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ChosenTrials {
+    /// All that have no shard yet.
+    All,
+    /// Those of them whose logs the store has: none is simulated.
+    Stored,
 }
 
 /// Handling of the logs of a finished trial.
@@ -81,7 +92,10 @@ pub fn work(
         return Err(BenchmarkError::NoStore { path: store.clone() });
     }
     let store = workers.store.as_deref().map(Store::open).transpose()?;
-    let left = folder.remaining(workers.part)?;
+    let mut left = folder.remaining(workers.part)?;
+    if workers.chosen == ChosenTrials::Stored {
+        left.retain(|task| folder.campaign().is_stored(*task, store.as_ref()));
+    }
     progress.begin(left.len());
     let jobs = workers.jobs.clamp(1, left.len().max(1));
     let worker_run = WorkerRun {

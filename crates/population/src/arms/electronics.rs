@@ -5,6 +5,7 @@ use simulator::{EffortSource, PositionSide};
 use crate::arms::make::Make;
 use crate::corner::{ArmClass, EffortClass};
 use crate::dice::{between, happens, one_of, weighted_index};
+use crate::instruments::{Instrument, control_rate_hz};
 
 /// The loop of an arm and where its signals come from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,14 +20,22 @@ pub(crate) struct Electronics {
     pub effort: EffortClass,
     /// Where position is measured.
     pub position: PositionSide,
+    /// Resolution of the encoders (bits a turn); that of the class where it is `None`.
+    pub encoder_bits: Option<u8>,
 }
 
 impl Electronics {
-    pub(crate) fn draw(class: ArmClass, random: &mut ChaCha8Rng) -> Self {
-        let rates = Make::of(class).rates;
+    /// Draws the electronics of a class; what `instrument` states is as it states.
+    pub(crate) fn draw(class: ArmClass, instrument: Instrument, random: &mut ChaCha8Rng) -> Self {
+        let make = Make::of(class);
+        let rates = make.rates;
         let even = vec![1.0; rates.len()];
         let [control_rate_hz, log_rate_hz] =
             rates.get(weighted_index(random, &even)).copied().unwrap_or([500.0; 2]);
+        let [control_rate_hz, log_rate_hz] = match instrument.log_rate_hz {
+            Some(rate) => [self::control_rate_hz(&make, rate), rate],
+            None => [control_rate_hz, log_rate_hz],
+        };
         let [command, current] = match class {
             ArmClass::Hobby => [0.7, 0.3],
             ArmClass::Cobot => [0.1, 0.5],
@@ -38,6 +47,7 @@ impl Electronics {
             1 => EffortClass::Current,
             _ => EffortClass::JointTorque,
         };
+        let effort = instrument.effort.unwrap_or(effort);
         let at_link = match class {
             ArmClass::Hobby => 0.8,
             ArmClass::Cobot => 0.2,
@@ -52,7 +62,8 @@ impl Electronics {
             _ if control_rate_hz > 150.0 => one_of(random, [28.6, 40.0, 50.0]),
             _ => (between(random, [0.2, 0.3]) * control_rate_hz).round(),
         };
-        Self { control_rate_hz, log_rate_hz, cutoff_hz, effort, position }
+        let encoder_bits = instrument.encoder_bits;
+        Self { control_rate_hz, log_rate_hz, cutoff_hz, effort, position, encoder_bits }
     }
 
     /// Time by which velocity reaches the motors late (s): the hold, the difference and the low pass.

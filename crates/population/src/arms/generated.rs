@@ -16,17 +16,19 @@ use crate::arms::urdf_text::urdf;
 use crate::corner::ArmClass;
 use crate::dice::{between, happens};
 use crate::error::PopulationError;
+use crate::instruments::Instrument;
 use crate::robot_files::RobotFiles;
 
 /// An arm of a class that is generated, with so many joints.
 pub(crate) fn draw(
     class: ArmClass,
     count: usize,
+    instrument: Instrument,
     random: &mut ChaCha8Rng,
 ) -> Result<SampledArm, PopulationError> {
     let make = Make::of(class);
     let chain = Chain::draw(class, count, random);
-    let electronics = Electronics::draw(class, random);
+    let electronics = Electronics::draw(class, instrument, random);
     let base = Base::draw(random);
     let gravity = base.gravity(random);
 

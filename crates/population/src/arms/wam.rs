@@ -14,6 +14,7 @@ use crate::arms::electronics::Electronics;
 use crate::arms::make::Make;
 use crate::corner::{ArmClass, EffortClass};
 use crate::error::PopulationError;
+use crate::instruments::Instrument;
 use crate::robot_files::RobotFiles;
 
 const URDF: &str = include_str!("../../../../robots/wam7/robot.urdf");
@@ -26,6 +27,8 @@ pub(crate) fn files() -> RobotFiles {
 
 /// What `robot.toml` says of the arm's efforts.
 const SOURCE: &str = "torque_source = \"commanded\"";
+/// What it says of the controller.
+const RATE: &str = "control_rate_hz = 500.0";
 /// What the URDF says of the friction of each joint.
 const DYNAMICS: &str = "<dynamics damping=\"0\" friction=\"0\"/>";
 
@@ -43,9 +46,12 @@ struct StatedJoint {
 }
 
 /// The arm with a base, signals and a nominal model of its own.
-pub(crate) fn draw(random: &mut ChaCha8Rng) -> Result<SampledArm, PopulationError> {
+pub(crate) fn draw(
+    instrument: Instrument,
+    random: &mut ChaCha8Rng,
+) -> Result<SampledArm, PopulationError> {
     let make = Make::of(ArmClass::Wam);
-    let electronics = Electronics::draw(ArmClass::Wam, random);
+    let electronics = Electronics::draw(ArmClass::Wam, instrument, random);
     let base = Base::draw(random);
     let gravity = base.gravity(random);
     let mut robot = Robot::from_urdf(URDF)?.with_gravity(Vector3::from(gravity));
@@ -61,7 +67,7 @@ pub(crate) fn draw(random: &mut ChaCha8Rng) -> Result<SampledArm, PopulationErro
         }
     }
 
-    let toml = truth_toml(base, gravity, electronics.effort);
+    let toml = truth_toml(base, gravity, &electronics);
     let known = match RotorsKnown::draw(&electronics, random) {
         RotorsKnown::All => toml.clone(),
         RotorsKnown::None => without_rotors(&toml),
@@ -88,8 +94,8 @@ pub(crate) fn draw(random: &mut ChaCha8Rng) -> Result<SampledArm, PopulationErro
     })
 }
 
-fn truth_toml(base: Base, gravity: [f64; 3], effort: EffortClass) -> String {
-    let source = match effort {
+fn truth_toml(base: Base, gravity: [f64; 3], electronics: &Electronics) -> String {
+    let source = match electronics.effort {
         EffortClass::Command => "commanded",
         EffortClass::Current => "current",
         EffortClass::JointTorque => "measured",
@@ -98,7 +104,8 @@ fn truth_toml(base: Base, gravity: [f64; 3], effort: EffortClass) -> String {
     if base != Base::Upright {
         said += &format!("\ngravity_m_per_s2 = {gravity:?}");
     }
-    TOML.replace(SOURCE, &said)
+    let rate = format!("control_rate_hz = {:?}", electronics.control_rate_hz);
+    TOML.replace(SOURCE, &said).replace(RATE, &rate)
 }
 
 fn without_rotors(toml: &str) -> String {

@@ -130,6 +130,7 @@ fn wishes(spec: &PopulationSpec, random: &mut ChaCha8Rng) -> BenchWishes {
         motions: spec.motions.clone(),
         logs: [logs, logs],
         log_s: [shortest, longest],
+        instruments: spec.instruments.clone(),
     }
 }
 

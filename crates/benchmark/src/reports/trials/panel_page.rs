@@ -85,6 +85,7 @@ fn sentence(merged: &MergedPanel) -> String {
 
 #[cfg(test)]
 mod tests {
+    use crate::alarms::alarm_ledger::AlarmLedger;
     use crate::tables::merged_panel::PANEL_SCHEMA;
     use crate::tables::panel_tally::PanelTally;
 
@@ -98,6 +99,7 @@ mod tests {
             counts: Vec::new(),
             failures: Vec::new(),
             tally: PanelTally::of(&[]),
+            alarms: AlarmLedger::of(&[]),
         };
         let provenance = Provenance {
             program: "plumbline",

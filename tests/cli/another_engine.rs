@@ -1,0 +1,155 @@
+//! `tests/benches/mujoco_panel.py` moves arms with MuJoCo: a pendulum needs the torque of its closed form.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use checks::arms::workspace_root;
+use logs::{Channels, ReadOptions, Run};
+use robot::Robot;
+
+use crate::program::PROGRAM;
+
+/// A rod: mass (kg), distance of its centre (m), inertia about it (kg m²), rotor (kg m²), dry (N m) and viscous
+/// friction (N m s/rad), gravity (m/s²).
+const MASS: f64 = 1.3;
+const CENTRE: f64 = 0.24;
+const INERTIA: f64 = 0.011;
+const ROTOR: f64 = 0.02;
+const DRY: f64 = 0.35;
+const VISCOUS: f64 = 0.12;
+const GRAVITY: f64 = 9.81;
+/// What a command reports of a torque: gain and offset (N m).
+const GAIN: f64 = 1.1;
+const OFFSET: f64 = 0.2;
+
+/// Rate of controller and log (Hz), length (s), amplitude (rad) and frequency (rad/s) of the motion.
+const RATE_HZ: f64 = 1000.0;
+const LENGTH_S: f64 = 5.0;
+const AMPLITUDE: f64 = 0.7;
+const OMEGA: f64 = 3.0;
+
+/// Largest error over the largest torque. Velocities of a semi-implicit step of 0.1 ms are half a step off:
+/// 0.00005 s of the 1/3 s in which the torque turns; MuJoCo's dry friction is 0.1 % soft (`solimpfriction`).
+const TOLERANCE: f64 = 2e-3;
+
+const URDF: &str = r#"<robot name="pendulum"><link name="base"/><link name="rod"><inertial><origin xyz="0 0 -0.24"/><mass value="1.3"/><inertia ixx="0.011" ixy="0" ixz="0" iyy="0.011" iyz="0" izz="0.001"/></inertial></link><joint name="hinge" type="revolute"><parent link="base"/><child link="rod"/><axis xyz="0 1 0"/><limit lower="-3" upper="3" effort="60" velocity="10"/></joint></robot>"#;
+
+const TOML: &str = "urdf = \"robot.urdf\"\ncontrol_rate_hz = 1000.0\ntorque_source = \"commanded\"\n\
+    [joint.hinge]\nrotor_inertia_kg_m2 = 0.02\nkp_nm_per_rad = 300.0\nkd_nm_s_per_rad = 12.0\n";
+
+const SCENARIO: &str = "robot = \"robot.toml\"\n[sensors]\nposition = \"link\"\neffort = \"commanded\"\n\
+    velocity = \"ideal\"\nlog_rate_hz = 1000.0\n\
+    [[effect]]\ncoulomb_friction = { joint = \"hinge\", level_nm = 0.35 }\n\
+    [[effect]]\nviscous_friction = { joint = \"hinge\", viscous_nm_s_per_rad = 0.12 }\n\
+    [[effect]]\ntorque_constant = { joint = \"hinge\", gain = 1.1 }\n\
+    [[effect]]\ntorque_offset = { joint = \"hinge\", offset_nm = 0.2 }\n\
+    [[run]]\nname = \"held_out\"\nlead_in_s = 0.5\n";
+
+/// An entry of a store: a pendulum that is asked for `q = A (1 - cos(w t))`.
+fn write_entry(entry: &Path, scenario: &str) {
+    let time: Vec<f64> = (0..=(LENGTH_S * RATE_HZ) as usize).map(|k| k as f64 / RATE_HZ).collect();
+    let of =
+        |signal: &dyn Fn(f64) -> f64| time.iter().map(|t| signal(OMEGA * t)).collect::<Vec<_>>();
+    let hinge = Channels {
+        name: "hinge".to_owned(),
+        position: of(&|_| 0.0),
+        effort: of(&|_| 0.0),
+        velocity: Some(of(&|_| 0.0)),
+        acceleration: None,
+        desired_position: Some(of(&|x| AMPLITUDE * (1.0 - x.cos()))),
+        desired_velocity: Some(of(&|x| AMPLITUDE * OMEGA * x.sin())),
+        desired_acceleration: Some(of(&|x| AMPLITUDE * OMEGA * OMEGA * x.cos())),
+        commanded_effort: None,
+        link_position: None,
+    };
+    let run = Run {
+        name: "held_out".to_owned(),
+        source: Default::default(),
+        sha256: String::new(),
+        is_torn: false,
+        mended: Vec::new(),
+        time,
+        joints: vec![hinge],
+        extra: BTreeMap::new(),
+    };
+    for folder in ["truth", "nominal"] {
+        fs::create_dir_all(entry.join(folder)).unwrap();
+        fs::write(entry.join(folder).join("robot.urdf"), URDF).unwrap();
+        fs::write(entry.join(folder).join("robot.toml"), TOML).unwrap();
+    }
+    fs::write(entry.join("truth/scenario.toml"), scenario).unwrap();
+    for folder in ["logs", "held_out"] {
+        fs::create_dir_all(entry.join(folder)).unwrap();
+        logs::write_parquet(&entry.join(folder).join("held_out.parquet"), &run).unwrap();
+    }
+    let sheet = r#"{"seed": 5, "corner": {"origin": "simulated"}, "strangers": []}"#;
+    fs::write(entry.join("sheet.json"), sheet).unwrap();
+    fs::write(entry.join("entry.json"), r#"{"format": 1, "files": {}}"#).unwrap();
+}
+
+/// What the script prints for a store; `None` where Python lacks what it needs.
+fn remade(store: &Path, out: &Path) -> Option<String> {
+    let python = |arguments: &[&str]| Command::new("python3").args(arguments).output();
+    let found = python(&["-c", "import mujoco, numpy, pyarrow"]);
+    if !found.is_ok_and(|output| output.status.success()) {
+        println!("skipped: python3 lacks one of mujoco, numpy, pyarrow; pip install brings them");
+        return None;
+    }
+    let script = workspace_root().join("tests/benches/mujoco_panel.py");
+    let paths = [script.as_path(), store, out].map(|path| path.display().to_string());
+    let [script, store, out] = paths.each_ref().map(String::as_str);
+    let output = python(&[script, store, out, "--plumbline", PROGRAM]).unwrap();
+    println!("{}", String::from_utf8_lossy(&output.stderr));
+    Some(String::from_utf8(output.stdout).unwrap())
+}
+
+#[test]
+fn oracle_a_pendulum_of_mujoco_needs_the_torque_of_its_closed_form() {
+    let folder = tempfile::tempdir().unwrap();
+    let [store, out] = ["store", "out"].map(|name| folder.path().join(name));
+    write_entry(&store.join("ab/abcd"), SCENARIO);
+    let Some(said) = remade(&store, &out) else { return };
+    assert!(said.contains("1 trials made by MuJoCo"), "{said}");
+    let robot = Robot::load(&out.join("ab/abcd/nominal/robot.toml")).unwrap().robot;
+    let log = out.join("ab/abcd/held_out/held_out.parquet");
+    let run = logs::read_run(&log, &robot, &ReadOptions::default()).unwrap();
+    let (q, effort) = (&run.joints[0].position, &run.joints[0].effort);
+    let qd = run.joints[0].velocity.as_ref().unwrap();
+    let inertia = INERTIA + MASS * CENTRE * CENTRE + ROTOR;
+    let (mut worst, mut largest, mut counted) = (0.0_f64, 0.0_f64, 0);
+    for k in 1..q.len() - 1 {
+        // Between two rows the torque is constant, and what it does is the mean of both.
+        let [speed, angle] = [qd, q].map(|signal| 0.5 * (signal[k] + signal[k + 1]));
+        let fall = MASS * GRAVITY * CENTRE * angle.sin();
+        let acceleration = (qd[k + 1] - qd[k]) * RATE_HZ;
+        let torque = inertia * acceleration + fall + DRY * speed.signum() + VISCOUS * speed;
+        largest = largest.max(torque.abs());
+        if speed.abs() > 0.05 {
+            worst = worst.max((effort[k] - OFFSET - GAIN * torque).abs());
+            counted += 1;
+        }
+    }
+    println!("largest error over largest torque: {:.1e} in {counted} rows", worst / largest);
+    assert!(counted > 4000 && largest > 3.0, "{counted} rows, {largest} N m");
+    assert!(worst < TOLERANCE * largest, "{worst} of {largest} N m");
+    let sheet = fs::read_to_string(out.join("ab/abcd/sheet.json")).unwrap();
+    assert!(sheet.contains("\"another_engine\""), "{sheet}");
+    // The list of files is that of the store: one that is damaged is seen.
+    let listed = fs::read_to_string(out.join("ab/abcd/entry.json")).unwrap();
+    let files =
+        ["held_out/held_out.parquet", "logs/held_out.parquet", "sheet.json", "truth/scenario.toml"];
+    assert!(files.iter().all(|file| listed.contains(file)), "{listed}");
+}
+
+#[test]
+fn what_an_mjcf_cannot_hold_is_left_out_and_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let [store, out] = ["store", "out"].map(|name| folder.path().join(name));
+    let more = "[[effect]]\nbacklash = { joint = \"hinge\", gap_rad = 0.01 }\n";
+    write_entry(&store.join("ab/abcd"), &format!("{SCENARIO}{more}"));
+    let Some(said) = remade(&store, &out) else { return };
+    assert!(said.contains("left out  abcd  the MJCF holds no backlash"), "{said}");
+    assert!(said.contains("0 trials made") && !out.join("ab/abcd").exists(), "{said}");
+}
