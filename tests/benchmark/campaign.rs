@@ -232,7 +232,7 @@ fn a_campaign_is_of_one_form() {
     let both = refused("hidden = ['clean']\n[population]\ntrials = 3\n");
     assert!(both.contains("hidden"), "{both}");
     let scenario = cheap(Hidden::Nothing, 0).scenario;
-    let one = "settings = [\"run=[{name='a', motion={sinusoids={duration_s=5.0}}}]\"]";
+    let one = "settings = [\"run=[{name='a', motion={sinusoids={seed=1, terms=2, lowest_hz=0.2, highest_hz=0.5, duration_s=5.0}}}]\"]";
     let gains = refused(&format!(
         "scenario = {scenario:?}\nhidden = ['clean']\nseeds = 1\ngains = true\n{one}\n"
     ));

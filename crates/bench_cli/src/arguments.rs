@@ -28,7 +28,7 @@ A campaign's folder holds
   shards/          a file for every trial that is made: to make one again, remove it
   slurm/           the job of submit, job.sh, and what its tasks have said
   trials.parquet   all of them, one row a trial; with merge
-  tally.json       how often what was hidden was named, by kind and size; with merge
+  tally.json       all scores, by corner and kind; with merge
   report.html      the same for a browser; with merge
 
 A trial is made in a folder of its own and its shard put in place when it is whole. Work that is
