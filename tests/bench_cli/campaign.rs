@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use benchmark::{Costs, Record};
+
 use crate::arm;
 use crate::program::{Answer, run};
 
@@ -45,12 +47,28 @@ pub fn done(folder: &Path, arguments: &[&str]) -> String {
     answer.out
 }
 
-/// The tables and files that a folder is merged into.
-pub fn merged(folder: &Path, name: &str) -> (String, Vec<Vec<u8>>) {
-    let text = done(folder, &["merge", name]);
-    let text = text.split("\nreport ").next().unwrap().to_owned();
-    let files = ["trials.parquet", "tally.json", "report.html"];
-    (text, files.map(|file| fs::read(folder.join(name).join(file)).unwrap()).to_vec())
+/// What a folder is merged into, but for what trials cost: the records, and the tally.
+pub fn merged(folder: &Path, name: &str) -> (Vec<Record>, serde_json::Value) {
+    done(folder, &["merge", name]);
+    let records = without_costs(&folder.join(name).join("trials.parquet"));
+    let tally = fs::read(folder.join(name).join("tally.json")).unwrap();
+    let mut tally: serde_json::Value = serde_json::from_slice(&tally).unwrap();
+    tally.as_object_mut().unwrap().remove("slowest").unwrap();
+    for row in tally["rows"].as_array_mut().unwrap() {
+        for cost in ["median_s", "nine_of_ten_s", "logs_s", "peak_memory_mb"] {
+            row.as_object_mut().unwrap().remove(cost).unwrap();
+        }
+    }
+    (records, tally)
+}
+
+/// The records of a table without times and memory, which no two runs share.
+pub fn without_costs(table: &Path) -> Vec<Record> {
+    let mut records = Record::read(table).unwrap();
+    for judged in records.iter_mut().filter_map(|record| record.score.as_mut().ok()) {
+        judged.costs = Costs::default();
+    }
+    records
 }
 
 pub fn shards(folder: &Path) -> Vec<PathBuf> {

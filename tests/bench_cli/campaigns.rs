@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use benchmark::Record;
 
 use crate::arm::{self, Gap};
-use crate::campaign::{CAMPAIGN, SCENARIO, done, folder, merged, shards, trials};
+use crate::campaign::{CAMPAIGN, SCENARIO, done, folder, merged, shards, trials, without_costs};
 use crate::program::{Answer, plumbline_bench, run};
 
 #[test]
@@ -33,24 +33,24 @@ fn a_campaign_is_planned_made_and_merged() {
     let status = done(path, &["status", "a"]);
     assert!(status.contains(" all                       6       0       0     0\n"), "{status}");
 
-    let (text, files) = merged(path, "a");
-    for expected in ["FR02 Coulomb friction", "two effects", "clean", "named first", "level (N m)"]
-    {
+    let text = done(path, &["merge", "a"]);
+    for expected in ["FR02 Coulomb friction", "IN01 payload", "visible causes 2-3"] {
         assert!(text.contains(expected), "{expected} is missing in\n{text}");
     }
     let records = Record::read(&path.join("a/trials.parquet")).unwrap();
     assert_eq!(records.iter().map(|record| record.task).collect::<Vec<_>>(), [0, 1, 2, 3, 4, 5]);
-    let injected = records.iter().map(|record| record.scenario_score().unwrap().injected.len());
-    assert_eq!(injected.collect::<Vec<_>>(), [0, 1, 2, 0, 1, 2]);
-    let json: serde_json::Value = serde_json::from_slice(&files[1]).unwrap();
-    assert_eq!(json["schema"], "plumbline.trials/1");
-    assert_eq!(json["rows"].as_array().unwrap().len(), 4);
-    assert!(files[2].len() < 2_000_000);
+    let causes = records.iter().map(|record| record.judgement().unwrap().causes.len());
+    assert_eq!(causes.collect::<Vec<_>>(), [0, 1, 2, 0, 1, 2]);
+    let whole = merged(path, "a");
+    let json = &whole.1;
+    assert_eq!(json["schema"], "plumbline.panel/2");
+    assert_eq!(json["counts"].as_array().unwrap().len(), 4);
+    assert!(fs::metadata(path.join("a/report.html")).unwrap().len() < 2_000_000);
     assert_eq!(fs::read_dir(path.join("a/work")).unwrap().count(), 0);
     // The campaign can be planned again, wherever its scenario has gone.
     fs::remove_file(path.join("scenario.toml")).unwrap();
     done(path, &["plan", "a/campaign.toml", "--out", "a"]);
-    assert_eq!(merged(path, "a"), (text, files));
+    assert_eq!(merged(path, "a"), whole);
 }
 
 #[test]
@@ -106,15 +106,15 @@ fn logs_that_are_kept_are_used_again_by_their_own_trial_alone() {
     let work = || done(path, &["work", "a", "--part", "2/3", "--keep"]);
     let taken = || {
         let shards = shards(&path.join("a"));
-        let bytes: Vec<_> = shards.iter().map(|shard| fs::read(shard).unwrap()).collect();
+        let records: Vec<_> = shards.iter().map(|shard| without_costs(shard)).collect();
         shards.iter().for_each(|shard| fs::remove_file(shard).unwrap());
-        bytes
+        records
     };
     assert_eq!(work(), "2 trials made; 0 left\n");
     let logs = kept(&path.join("a"));
     let written = || {
         logs.clone()
-            .map(|logs| fs::metadata(logs.join("waves.parquet")).unwrap().modified().unwrap())
+            .map(|logs| fs::metadata(logs.join("logs/waves.parquet")).unwrap().modified().unwrap())
     };
     let (first, shards) = (written(), taken());
     assert_eq!(work(), "2 trials made; 0 left\n");
@@ -124,16 +124,16 @@ fn logs_that_are_kept_are_used_again_by_their_own_trial_alone() {
     // Those of another trial, and those that are not whole, with a log that is none of theirs.
     fs::remove_dir_all(&logs[0]).unwrap();
     fs::rename(&logs[1], &logs[0]).unwrap();
-    fs::create_dir(&logs[1]).unwrap();
-    for name in ["scenario.toml", "waves.parquet"] {
+    for name in ["truth/scenario.toml", "logs/waves.parquet"] {
+        fs::create_dir_all(logs[1].join(name).parent().unwrap()).unwrap();
         fs::copy(logs[0].join(name), logs[1].join(name)).unwrap();
     }
     for logs in &logs {
-        fs::write(logs.join("another.parquet"), "no log").unwrap();
+        fs::write(logs.join("logs/another.parquet"), "no log").unwrap();
     }
     assert_eq!(work(), "2 trials made; 0 left\n");
     assert!(taken() == shards);
-    assert!(logs.iter().all(|logs| !logs.join("another.parquet").exists()));
+    assert!(logs.iter().all(|logs| !logs.join("logs/another.parquet").exists()));
 }
 
 #[test]
@@ -270,18 +270,6 @@ fn a_campaign_is_its_content_wherever_it_lies() {
     assert!(!there.path().join("c").exists());
 }
 
-/// Trials that another clone made, of the commit that `docs/lab/2026-11-23-trials.md` names.
-#[test]
-fn the_trials_of_the_workspace_are_taken_in_any_clone() {
-    let folder = tempfile::tempdir().unwrap();
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let at = |path: &str| root.join(path).display().to_string();
-    let campaign = at("scenarios/campaigns/trials.toml");
-    let table = at("tests/golden/trials.parquet");
-    let said = done(folder.path(), &["plan", &campaign, "--out", "blind", "--made", &table]);
-    assert!(said.contains("1003 are made already"), "{said}");
-}
-
 #[test]
 fn a_folder_with_trials_of_another_campaign_is_refused() {
     let folder = folder();
@@ -337,22 +325,20 @@ fn what_cannot_be_written_ends_the_work_and_loses_nothing() {
 
 /// Logs of three seconds of so slow a motion are too short to say anything.
 #[test]
-fn a_trial_that_cannot_be_diagnosed_is_counted_and_told() {
+fn a_trial_that_cannot_be_diagnosed_is_refused_and_says_why() {
     let folder = folder();
     let path = folder.path();
     let waves = "highest_hz = 0.3, fade_s = 1.4, duration_s = 3";
     let scenario = SCENARIO.replace("highest_hz = 1, duration_s = 6", waves);
     arm::write(path, "scenario.toml", &scenario);
     done(path, &["plan", "campaign.toml", "--out", "a"]);
-    assert_eq!(done(path, &["work", "a"]), "6 trials made, 6 of them failed; 0 left\n");
-    assert_eq!(done(path, &["work", "a"]), "0 trials made; 0 left\n");
-    let (text, _) = merged(path, "a");
-    assert!(text.contains(" all        0       6       0     0\n"), "{text}");
-    assert!(text.contains("2 failed of rotor_inertia+payload, seed "), "{text}");
-    let page = fs::read_to_string(path.join("a/report.html")).unwrap();
-    assert!(page.contains("No trial has a score") && page.contains("clean, 2 times, seed "));
-    let records = Record::read(&path.join("a/trials.parquet")).unwrap();
-    assert!(records.iter().all(|record| text.contains(record.score.as_ref().unwrap_err())));
+    assert_eq!(done(path, &["work", "a"]), "6 trials made; 0 left\n");
+    let (records, tally) = merged(path, "a");
+    assert_eq!((&tally["rows"][0]["trials"], &tally["rows"][0]["refused"]), (&6.into(), &6.into()));
+    for record in records {
+        let judged = record.score.unwrap();
+        assert!(judged.findings.is_empty() && !judged.refused.unwrap().is_empty());
+    }
 }
 
 #[test]

@@ -1,7 +1,6 @@
 use std::path::Path;
 
-use benchmark::Record;
-use experiment::{Named, Score};
+use benchmark::{Judgement, Record};
 
 use crate::arm;
 use crate::campaign::{done, folder, trials};
@@ -11,23 +10,32 @@ use crate::program::run;
 #[allow(clippy::fn_params_excessive_bools, reason = "a made-up trial is right or not")]
 fn record(task: usize, right: bool, campaign: &str) -> Record {
     let finding = r#"{
-        "effect": "coulomb_friction", "joint": "elbow", "share_explained": 0.5, "not_separable_from": []
+        "effect": "coulomb_friction", "joint": "elbow", "share_explained": 0.5,
+        "not_separable_from": [], "is_true": false, "sharpness": null, "body": null
     }"#;
-    let finding: Named = serde_json::from_str(finding).unwrap();
-    let stray = if right { Vec::new() } else { vec![finding.at.clone()] };
-    let findings = if right { Vec::new() } else { vec![finding] };
-    let score = r#"{
-        "seed": 0, "put_in": [], "looked_for": true, "verdict": "consistent", "findings": [],
-        "exactly": true, "as_one_of": true, "stray": []
-    }"#;
-    let score: Score = serde_json::from_str(score).unwrap();
-    let score = Score { findings, stray, exactly: right, as_one_of: right, ..score };
+    let judged = format!(
+        r#"{{
+            "seed": 0, "knowledge": "whole", "verdict": "consistent", "findings": [{}],
+            "corner": {{
+                "origin": "simulated", "arm": "arm", "motion": "sweep", "effort": "current", "joints": 2,
+                "encoder_step": 0.0, "rate_hz": 100.0, "logs": 1, "length_s": 6.0, "repeats": false
+            }},
+            "causes": [], "strangers": [], "spoilings": [], "least_squares": [],
+            "reasons": {{ "given": 0, "contradicting": [] }},
+            "prediction": {{ "nominal": null, "extended": null, "least_squares": null }},
+            "costs": {{
+                "logs_s": 0.0, "diagnosis_s": 0.0, "least_squares_s": 0.0, "peak_memory_mb": null
+            }}
+        }}"#,
+        if right { "" } else { finding }
+    );
+    let judged: Judgement = serde_json::from_str(&judged).unwrap();
     Record {
         task,
         hidden: Some("clean".parse().unwrap()),
         seed: 40 + task as u64,
         campaign: campaign.to_owned(),
-        score: Ok(score.into()),
+        score: Ok(judged.into()),
     }
 }
 
@@ -110,7 +118,7 @@ fn a_population_is_planned_and_its_merged_page_says_what_is_left() {
     assert!(answer.out.contains("3 of 3 trials are left to make"), "{}", answer.out);
     let json = std::fs::read(path.join("p/tally.json")).unwrap();
     let json: serde_json::Value = serde_json::from_slice(&json).unwrap();
-    assert_eq!(json["schema"], "plumbline.panel/1");
+    assert_eq!(json["schema"], "plumbline.panel/2");
     let page = std::fs::read_to_string(path.join("p/report.html")).unwrap();
     assert!(page.contains("No trial has a score"));
     assert_eq!(page.matches("<script").count(), 2, "the data, and what sorts and copies");

@@ -1,10 +1,9 @@
-//! What two plain methods make of logs of another engine and of the simulator, and how their
-//! errors are measured.
+//! What plain least squares makes of logs of another engine and of the simulator, and how its error is measured.
 
 use std::fs;
 use std::path::Path;
 
-use benchmark::{least_squares, two_questions};
+use benchmark::least_squares;
 use catalogue::EffectKind;
 use checks::arms::{wam, workspace_root};
 use checks::recorded::folder;
@@ -13,7 +12,6 @@ use diagnosis::EffectAt;
 use document::Document;
 use experiment::robot_error;
 use logs::{ReadOptions, Run, read_run};
-use robot::Robot;
 use simulator::scenario::Scenario;
 
 const CONTROL_RATE_HZ: Option<f64> = Some(500.0);
@@ -46,37 +44,6 @@ fn all(errors: Vec<Option<f64>>) -> Vec<f64> {
 
 fn words(names: &[EffectAt]) -> Vec<String> {
     names.iter().map(EffectAt::words).collect()
-}
-
-#[test]
-fn recorded_another_engines_single_causes_are_named_first_by_two_questions() {
-    let Some(folder) = folder() else { return };
-    for name in ["cable_spring", "torque_ripple", "asymmetric_friction"] {
-        let (runs, truth) = case(&folder, name);
-        let start = std::time::Instant::now();
-        let baseline = two_questions(&wam(), CONTROL_RATE_HZ, &runs).unwrap();
-        println!("{name}: {:?} in {:?}", words(&baseline.names), start.elapsed());
-        assert_eq!(words(&baseline.names).first(), words(&truth).first());
-        // What it leaves of runs that it has not seen is less than what the nominal robot does.
-        let learned = two_questions(&wam(), CONTROL_RATE_HZ, &runs[..3]).unwrap();
-        let after = learned.held_out_error(&wam(), CONTROL_RATE_HZ, &runs[3..]).map(all).unwrap();
-        let before = robot_error(&wam(), CONTROL_RATE_HZ, &runs[3..]).map(all).unwrap();
-        let j = wam().joint_index(truth[0].joint.as_deref().unwrap()).unwrap();
-        println!("{name}: {:.4} N m left of {:.4}", after[j], before[j]);
-        assert!(after[j] < 0.5 * before[j], "{after:?} of {before:?}");
-    }
-}
-
-#[test]
-fn recorded_most_of_many_causes_at_once_are_named_by_two_questions() {
-    let Some(folder) = folder() else { return };
-    let (runs, truth) = case(&folder, "many");
-    let start = std::time::Instant::now();
-    let named = two_questions(&wam(), CONTROL_RATE_HZ, &runs).unwrap().names;
-    println!("many: {:?} in {:?}", words(&named), start.elapsed());
-    let found = truth.iter().filter(|cause| named.contains(cause)).count();
-    let wrong = named.iter().filter(|name| !truth.contains(name)).count();
-    assert!(found >= 14 && wrong <= 2, "{found} found, {wrong} wrong: {:?}", words(&named));
 }
 
 #[test]
@@ -116,80 +83,40 @@ const FRICTION: &str = "{ coulomb_friction={ joint='j2_shoulder_pitch', level_nm
     { viscous_friction={ joint='j4_elbow_pitch', viscous_nm_s_per_rad=0.8 } }";
 
 #[test]
-fn friction_in_the_simulator_is_named_and_predicted_by_both_and_nothing_in_a_clean_arm() {
+fn friction_in_the_simulator_is_named_and_predicted_and_nothing_in_a_clean_arm() {
     let expected =
         ["FR01 viscous friction at j4_elbow_pitch", "FR02 Coulomb friction at j2_shoulder_pitch"];
     let runs = simulated(FRICTION, &[11, 12, 13, 14]);
-    let baselines = [least_squares, two_questions]
-        .map(|method| method(&wam(), CONTROL_RATE_HZ, &runs[..3]).unwrap());
+    let fitted = least_squares(&wam(), CONTROL_RATE_HZ, &runs[..3]).unwrap();
     let before = robot_error(&wam(), CONTROL_RATE_HZ, &runs[3..]).map(all).unwrap();
-    for baseline in &baselines {
-        let mut names = words(&baseline.names);
-        names.sort();
-        assert_eq!(names, expected);
-        let after = baseline.held_out_error(&wam(), CONTROL_RATE_HZ, &runs[3..]).map(all).unwrap();
-        println!("{after:.4?} left of {before:.4?}");
-        assert!(after[1] < 0.2 * before[1] && after[3] < 0.2 * before[3], "{after:?}");
-    }
+    let mut names = words(&fitted.names);
+    names.sort();
+    assert_eq!(names, expected);
+    let after = fitted.held_out_error(&wam(), CONTROL_RATE_HZ, &runs[3..]).map(all).unwrap();
+    println!("{after:.4?} left of {before:.4?}");
+    assert!(after[1] < 0.2 * before[1] && after[3] < 0.2 * before[3], "{after:?}");
     let clean = simulated("", &[11, 12, 13]);
-    for method in [least_squares, two_questions] {
-        let named = method(&wam(), CONTROL_RATE_HZ, &clean).unwrap().names;
-        assert_eq!(words(&named), Vec::<String>::new());
-    }
+    let named = least_squares(&wam(), CONTROL_RATE_HZ, &clean).unwrap().names;
+    assert_eq!(words(&named), Vec::<String>::new());
 }
 
-/// A single log is held out in blocks; every tenth row of it is one of 50 Hz.
-#[test]
-fn one_log_and_a_slow_one_are_enough_for_friction() {
-    let runs = simulated(FRICTION, &[11]);
-    let mut slow = runs.clone();
-    let thin = |x: &mut Vec<f64>| *x = x.iter().copied().step_by(10).collect();
-    for run in &mut slow {
-        thin(&mut run.time);
-        run.extra.clear();
-        for joint in &mut run.joints {
-            for channel in logs::Channel::ALL {
-                if let Some(samples) = joint.get(channel) {
-                    let mut samples = samples.to_vec();
-                    thin(&mut samples);
-                    joint.set(channel, samples);
-                }
-            }
-        }
-    }
-    for runs in [runs, slow] {
-        let named = words(&two_questions(&wam(), CONTROL_RATE_HZ, &runs).unwrap().names);
-        let expected = [
-            "FR02 Coulomb friction at j2_shoulder_pitch",
-            "FR01 viscous friction at j4_elbow_pitch",
-        ];
-        for name in expected {
-            assert!(named.iter().any(|n| n == name), "{named:?}");
-        }
-        assert!(named.len() <= 3, "{named:?}");
-    }
-}
-
-/// Where nothing is named a baseline predicts the nominal effort, and its error is that of the
-/// nominal robot: noise of the effort besides the world that it knows.
+/// Both errors of an arm that is as described are noise of the effort in one band, at the same samples: that of a fit
+/// differs by what its 40 parameters take of it.
 #[test]
 fn errors_of_a_baseline_and_of_a_robot_are_of_one_band() {
-    let clean = |robot: &Robot, seed: u64| {
-        let truth = Truth { robot, torque: &|_, _| 0.0, reading: &|_, effort| effort };
-        run(&truth, &Noise::of_a_wam(), 10.0, seed)
+    let clean = |seed: u64| {
+        let truth = Truth { robot: &wam(), torque: &|_, _| 0.0, reading: &|_, effort| effort };
+        run(&truth, &Noise::of_a_wam(), 20.0, seed)
     };
-    let logs: Vec<Run> = (0..3).map(|seed| clean(&wam(), seed)).collect();
-    let baseline = two_questions(&wam(), None, &logs).unwrap();
-    assert_eq!(words(&baseline.names), Vec::<String>::new());
-    let mut heavy = wam();
-    heavy.link_mut(3).unwrap().inertia.mass *= 1.5;
-    for truth in [wam(), heavy] {
-        let test = [clean(&truth, 7)];
-        let of_baseline = baseline.held_out_error(&wam(), None, &test).map(all).unwrap();
-        let of_robot = robot_error(&wam(), None, &test).map(all).unwrap();
-        for (a, b) in of_baseline.iter().zip(&of_robot) {
-            assert!((a / b - 1.0).abs() < 0.02, "{of_baseline:?} and {of_robot:?}");
-        }
+    let logs: Vec<Run> = (0..3).map(clean).collect();
+    let fitted = least_squares(&wam(), None, &logs).unwrap();
+    assert_eq!(words(&fitted.names), Vec::<String>::new());
+    let test = [clean(7)];
+    let by_hand = fitted.held_out_error(&wam(), None, &test).map(all).unwrap();
+    let of_robot = robot_error(&wam(), None, &test).map(all).unwrap();
+    println!("{by_hand:.5?} and {of_robot:.5?}");
+    for (a, b) in by_hand.iter().zip(&of_robot) {
+        assert!((a / b - 1.0).abs() < 0.15, "{by_hand:?} and {of_robot:?}");
     }
 }
 
@@ -198,8 +125,6 @@ fn logs_of_another_robot_are_refused() {
     let truth = Truth { robot: &wam(), torque: &|_, _| 0.0, reading: &|_, effort| effort };
     let mut log = run(&truth, &Noise::of_a_wam(), 5.0, 1);
     log.joints.pop();
-    for method in [least_squares, two_questions] {
-        let error = method(&wam(), None, std::slice::from_ref(&log)).unwrap_err().to_string();
-        assert!(error.contains("j7_palm_yaw"), "{error}");
-    }
+    let error = least_squares(&wam(), None, std::slice::from_ref(&log)).unwrap_err().to_string();
+    assert!(error.contains("j7_palm_yaw"), "{error}");
 }

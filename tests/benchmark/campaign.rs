@@ -15,8 +15,8 @@ use crate::trials::cheap;
 #[test]
 fn a_record_is_read_back_as_it_was_written() {
     let folder = tempfile::tempdir().unwrap();
-    let score = cheap(Hidden::One(CoulombFriction), 3).run(&folder.path().join("logs")).unwrap();
-    assert!(score.injected[0].sizes[0].estimate.is_some() && !score.findings.is_empty());
+    let judged = cheap(Hidden::One(CoulombFriction), 3).run(&folder.path().join("logs")).unwrap();
+    assert!(judged.causes[0].sizes[0].estimate.is_some() && !judged.findings.is_empty());
     let record = |task, score| Record {
         task,
         hidden: Some(Hidden::One(CoulombFriction)),
@@ -25,19 +25,19 @@ fn a_record_is_read_back_as_it_was_written() {
         score,
     };
     let records =
-        [record(0, Ok(score.clone().into())), record(7, Err("it \"ran\" away".to_owned()))];
+        [record(0, Ok(judged.clone().into())), record(7, Err("it \"ran\" away".to_owned()))];
     let path = folder.path().join("records.parquet");
     Record::write(&path, &records).unwrap();
     assert_eq!(Record::read(&path).unwrap(), records);
 
     // A number that JSON has not is no number.
-    let mut endless = score;
-    let estimate = endless.injected[0].sizes[0].estimate.as_mut().unwrap();
+    let mut endless = judged;
+    let estimate = endless.causes[0].sizes[0].estimate.as_mut().unwrap();
     estimate.ci95 = [f64::NEG_INFINITY, 1.0];
     Record::write(&path, &[record(0, Ok(endless.into()))]).unwrap();
     let read = Record::read(&path).unwrap().remove(0);
-    let read = read.scenario_score().unwrap();
-    let [low, high] = read.injected[0].sizes[0].estimate.as_ref().unwrap().ci95;
+    let read = read.judgement().unwrap();
+    let [low, high] = read.causes[0].sizes[0].estimate.as_ref().unwrap().ci95;
     assert!(low.is_nan() && (high - 1.0).abs() < 1e-12);
 }
 
@@ -126,10 +126,10 @@ fn work_that_is_stopped_ends_after_the_trial_and_keeps_logs_where_they_are_wante
     assert_eq!(folder.remaining(Part::WHOLE).unwrap(), [1]);
     let record = folder.manifest().unwrap().records.remove(&0).unwrap();
     assert_eq!((record.hidden, record.seed), folder.campaign().task(0));
-    let score = record.scenario_score().unwrap();
-    assert!(score.exactly && score.seed == record.seed, "{}", score.words());
+    let judged = record.judgement().unwrap();
+    assert_eq!((judged.right(), judged.seed), (Some(true), record.seed));
     let logs = root.path().join(format!("logs/clean/{}", record.seed));
-    assert!(logs.join("a.parquet").is_file() && logs.join("b.parquet").is_file());
+    assert!(logs.join("logs/a.parquet").is_file() && logs.join("logs/b.parquet").is_file());
 }
 
 /// As an earlier or another process would hold it.
@@ -254,6 +254,12 @@ fn a_campaign_is_of_one_form() {
     };
     let both = refused("hidden = ['clean']\n[population]\ntrials = 3\n");
     assert!(both.contains("hidden"), "{both}");
+    let scenario = cheap(Hidden::Nothing, 0).scenario;
+    let one = "settings = [\"run=[{name='a', motion={sinusoids={seed=1, terms=2, lowest_hz=0.2, highest_hz=0.5, duration_s=5.0}}}]\"]";
+    let gains = refused(&format!(
+        "scenario = {scenario:?}\nhidden = ['clean']\nseeds = 1\ngains = true\n{one}\n"
+    ));
+    assert!(gains.contains("one run, two or more were expected"), "{gains}");
     let none = refused("[population]\ntrials = 0\n");
     assert!(none.contains("a number from 1 to 1000000 was expected"), "{none}");
 }

@@ -2,7 +2,9 @@
 
 use benchmark::{Answers, Costs, HeldOut};
 use catalogue::EffectKind;
-use diagnosis::{DataSummary, Diagnosis, EffectAt, Finding, Gain, InverseGain, SCHEMA, Verdict};
+use diagnosis::{
+    DataSummary, Diagnosis, EffectAt, Estimate, Finding, Gain, InverseGain, SCHEMA, Verdict,
+};
 use population::{
     CauseRole, Corner, EffortClass, Knowledge, MotionClass, Origin, Strength, TrueCause,
     TrueStranger, TruthSheet,
@@ -14,6 +16,11 @@ pub const FAINT: Strength = Strength { sigmas: 2.0, share: 0.3, torque: 0.4 };
 
 pub fn at(effect: EffectKind, joint: &str) -> EffectAt {
     EffectAt { effect, joint: Some(joint.to_owned()), link: None }
+}
+
+/// What a finding says of a parameter, with a 95 % interval.
+pub fn estimate(name: &'static str, value: f64, ci95: [f64; 2], determined: bool) -> Estimate {
+    Estimate { name, value, ci95, noise95: ci95, nominal: 0.0, unit: "", determined }
 }
 
 /// A finding with a share of the residual, and what it may as well be.
@@ -69,7 +76,6 @@ pub fn answers(verdict: Verdict, findings: Vec<Finding>) -> Answers {
     Answers {
         diagnosis: Ok(diagnosis(verdict, findings)),
         held_out: HeldOut::default(),
-        two_questions: Vec::new(),
         least_squares: Vec::new(),
         costs: Costs { diagnosis_s: 2.0, ..Costs::default() },
     }

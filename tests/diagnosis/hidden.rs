@@ -11,8 +11,10 @@ use std::sync::{Mutex, OnceLock};
 use benchmark::{Hidden, Trial};
 use catalogue::EffectKind;
 use checks::arms::workspace_root;
-use diagnosis::{EffectAt, Verdict};
-use experiment::{Score, Size};
+use diagnosis::{EffectAt, Settings, Silent, Verdict};
+use experiment::{Blinded, Score, Size};
+use logs::{ReadOptions, Run, read_run};
+use robot::Robot;
 
 use EffectKind as E;
 
@@ -83,7 +85,22 @@ fn score(hidden: Hidden, seed: u64) -> Score {
 
 pub fn score_along(hidden: Hidden, seed: u64, motion: &Parts) -> Score {
     let folder = tempfile::tempdir().unwrap();
-    let score = trial(hidden, seed, motion).run(folder.path()).unwrap();
+    trial(hidden, seed, motion).make(folder.path()).unwrap();
+    let loaded = Robot::load(&folder.path().join("nominal/robot.toml")).unwrap();
+    let read = |name: &str| {
+        let log = folder.path().join(format!("logs/{name}.parquet"));
+        read_run(&log, &loaded.robot, &ReadOptions::default()).unwrap()
+    };
+    let runs: Vec<Run> = ["a", "b"].map(read).to_vec();
+    let without = match hidden {
+        Hidden::Unknown(kind) => vec![kind],
+        _ => Vec::new(),
+    };
+    let settings =
+        Settings { control_rate_hz: loaded.control.rate_hz, without, ..Settings::default() };
+    let answer = diagnosis::diagnose(&loaded.robot, &runs, &settings, &Silent).unwrap();
+    let truth = Blinded::open(&folder.path().join("truth")).unwrap();
+    let score = Score::new(&answer.diagnosis, &truth.effects, truth.seed);
     println!("{}", score.words());
     for finding in &score.findings {
         let rivals = &finding.not_separable_from;

@@ -6,16 +6,19 @@ use std::sync::{Arc, LazyLock};
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, UInt64Type};
 use arrow_array::{Array, ArrayRef, Float64Array, RecordBatch, StringArray, UInt64Array};
-use benchmark::Record;
-use checks::arms::workspace_root;
+use benchmark::{Answers, Costs, HeldOut, Judgement, Record};
 use checks::mutated;
 use learner::{Model, ModelKind, Samples, SilentTraining, TrainSettings, Training};
 use logs::{PrepareSettings, ReadOptions, prepare, read_run, rest_speeds};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::file::metadata::KeyValue;
+use population::{
+    CauseRole, Corner, EffortClass, Knowledge, MotionClass, Origin, Strength, TrueCause, TruthSheet,
+};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use robot::Robot;
+use simulator::Truth;
 
 use crate::{Reader, logs_of_kinds, robots};
 
@@ -116,16 +119,64 @@ fn changed_column(column: &ArrayRef, random: &mut ChaCha8Rng) -> ArrayRef {
 }
 
 fn shards(folder: &Path) -> Vec<Vec<u8>> {
-    let records = Record::read(&workspace_root().join("tests/golden/trials.parquet")).unwrap();
+    let records: Vec<Record> = [Some("clean"), Some("backlash"), Some("any+any")]
+        .into_iter()
+        .chain([None, None])
+        .enumerate()
+        .map(|(task, hidden)| record(task, hidden))
+        .collect();
     let mut failed = records[..2].to_vec();
     failed[0].score = Err("the log is too short".to_owned());
-    [&records[..3], &records[records.len() - 2..], &failed]
+    [&records[..3], &records[3..], &failed]
         .map(|records| {
             let path = folder.join("shard.parquet");
             Record::write(&path, records).unwrap();
             std::fs::read(path).unwrap()
         })
         .to_vec()
+}
+
+/// A judged trial whose logs are refused.
+fn record(task: usize, hidden: Option<&str>) -> Record {
+    let truth = Truth::at_joint(catalogue::EffectKind::Backlash, "elbow", &[("gap", 0.001)]);
+    let strength = Strength { sigmas: 50.0, share: 0.3, torque: 0.4 };
+    let sheet = TruthSheet {
+        seed: 40 + task as u64,
+        corner: corner(),
+        knowledge: Knowledge::Whole,
+        joints: vec!["shoulder".to_owned(), "elbow".to_owned()],
+        torque_rms: vec![10.0, 2.0],
+        causes: vec![TrueCause { role: CauseRole::Hidden, truth, strength }],
+        strangers: Vec::new(),
+    };
+    let answers = Answers {
+        diagnosis: Err("the log is of another robot".to_owned()),
+        held_out: HeldOut { nominal: Some(vec![Some(1.0), None]), ..HeldOut::default() },
+        least_squares: Vec::new(),
+        costs: Costs::default(),
+    };
+    Record {
+        task,
+        hidden: hidden.map(|name| name.parse().unwrap()),
+        seed: sheet.seed,
+        campaign: "0123456789".to_owned(),
+        score: Ok(Box::new(Judgement::new(&sheet, &answers))),
+    }
+}
+
+fn corner() -> Corner {
+    Corner {
+        origin: Origin::Simulated,
+        arm: "cobot".to_owned(),
+        motion: MotionClass::Sweep,
+        effort: EffortClass::Current,
+        joints: 2,
+        encoder_step: 0.001,
+        rate_hz: 250.0,
+        logs: 2,
+        length_s: 30.0,
+        repeats: false,
+    }
 }
 
 fn models(folder: &Path) -> Vec<Vec<u8>> {

@@ -28,7 +28,7 @@ A campaign's folder holds
   shards/          a file for every trial that is made: to make one again, remove it
   slurm/           the job of submit, job.sh, and what its tasks have said
   trials.parquet   all of them, one row a trial; with merge
-  tally.json       how often what was hidden was named, by kind and size; with merge
+  tally.json       all scores, by corner and kind; with merge
   report.html      the same for a browser; with merge
   accounts/        of every trial, where its names are lost; with account
   account.json     all of them, by stage and kind; with account

@@ -1,19 +1,19 @@
 //! Benchmarks of a diagnosis: campaigns of blind trials, baselines, and the paper's figures.
 //!
 //! ```text
-//! Campaign --plan--> CampaignFolder --work--> shards of Records --> Merged or MergedPanel
-//! Trial: simulate, diagnose blind --> Score --many--> Tally, Power
-//! Sheet, Answers --> Judgement --many--> PanelTally
+//! Campaign --plan--> CampaignFolder --work--> shards of Records --> MergedPanel
+//! trial of a scenario or a population: nominal/, logs/ --diagnose blind--> Answers
+//! TruthSheet, Answers --> Judgement --many--> PanelTally
 //! two results of the same trials --> PairedComparison
 //! LearningFigure --simulate, diagnose, learn--> LearningErrors --judge--> Claims
-//! Merged, MergedPanel, LearningErrors, PredictionTimes --> pages, drawings, text, JSON
+//! MergedPanel, LearningErrors, PredictionTimes --> pages, drawings, text, JSON
 //! ```
 //!
-//! - `panel` judges one trial of a population by its truth, `trials` plans and makes campaigns;
+//! - `panel` judges one trial by its truth, `trials` plans and makes campaigns;
 //! - `account` says at which stage every missed cause and every false finding of a campaign is lost;
 //! - `tables` adds trials up, `paired` compares two results of the same trials;
 //! - `alarms` is what was said of clean logs, corner by corner;
-//! - `baselines` are two simple methods, `statistics` shares and rates with their intervals;
+//! - `baselines` is plain least squares, `statistics` shares and rates with their intervals;
 //! - `paper` measures the figures of Nguyen-Tuong & Peters 2010, `reports` shows all of it.
 
 mod account;
@@ -41,7 +41,6 @@ pub use alarms::alarm_row::AlarmRow;
 pub use alarms::false_name::FalseName;
 pub use baselines::baseline::Baseline;
 pub use baselines::least_squares::least_squares;
-pub use baselines::two_questions::two_questions;
 pub use error::BenchmarkError;
 pub use paired::comparison::PairedComparison;
 pub use paired::measures::{Measure, TrialQuantity};
@@ -49,8 +48,11 @@ pub use paired::paired_mean::PairedMean;
 pub use paired::paired_share::PairedShare;
 pub use paired::turned::Turned;
 pub use panel::answers::{Answers, Costs, HeldOut};
+pub use panel::judged_body::JudgedBody;
 pub use panel::judged_cause::JudgedCause;
 pub use panel::judged_finding::{BaselineClaim, JudgedFinding};
+pub use panel::judged_reasons::JudgedReasons;
+pub use panel::judged_spoiling::{JudgedSpoiling, SpoilingOutcome};
 pub use panel::judgement::Judgement;
 pub use panel::panel_side::PanelSide;
 pub use panel::prediction::{Prediction, RelativeError};
@@ -67,22 +69,18 @@ pub use reports::paper::prediction_time_figure::{
     PREDICTION_TIME_FIGURE_SCHEMA, PredictionTimeFigureReport,
 };
 pub use reports::times::prediction_times::{Maker, PredictionTimes, TimeCurve, TimePoint};
-pub use reports::trials::page::trials_page;
 pub use reports::trials::panel_page::panel_page;
 pub use statistics::rate::{Fraction, Rate};
 pub use statistics::share::Share;
 pub use statistics::text_table::TextTable;
-pub use tables::confusion::Confusion;
-pub use tables::gained::{Gained, Reduction};
 pub use tables::kind_row::KindRow;
-pub use tables::merged::{MERGED_SCHEMA, Merged};
 pub use tables::merged_panel::{MergedPanel, PANEL_SCHEMA};
 pub use tables::panel_row::{Naming, PanelRow, Ratios};
 pub use tables::panel_tally::PanelTally;
-pub use tables::power::{Power, SizeClass};
+pub use tables::size_tally::SizeTally;
 pub use tables::slow_diagnosis::SlowDiagnosis;
+pub use tables::spoiling_row::SpoilingRow;
 pub use tables::stranger_row::StrangerRow;
-pub use tables::tally::{SizeTally, Tally, TallyRow, TrialGroup};
 pub use trials::campaign::{Campaign, PopulationCampaign};
 pub use trials::campaign_folder::{BrokenShard, CampaignFolder, Manifest, read_finished};
 pub use trials::failure::Failure;
@@ -91,6 +89,5 @@ pub use trials::kind_count::KindCount;
 pub use trials::part::{BadPart, Part};
 pub use trials::record::Record;
 pub use trials::scenario_campaign::{CampaignSpec, ScenarioCampaign};
-pub use trials::scored::Scored;
-pub use trials::trial::{Trial, judge};
+pub use trials::trial::Trial;
 pub use trials::work::{ChosenTrials, TrialLogs, WorkProgress, Workers, work};

@@ -6,6 +6,12 @@ use simulator::LogFormat;
 
 use crate::error::BenchmarkError;
 
+/// Folders of a trial: its nominal model, the logs that are diagnosed, those that show a prediction, and the truth.
+pub(crate) const NOMINAL: &str = "nominal";
+pub(crate) const LOGS: &str = "logs";
+pub(crate) const HELD_OUT: &str = "held_out";
+pub(crate) const TRUTH: &str = "truth";
+
 /// Reads every log of a trial's folder for this robot, in the order of their names.
 pub(crate) fn read_runs(folder: &Path, robot: &Robot) -> Result<Vec<Run>, BenchmarkError> {
     let options = ReadOptions::default();

@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use benchmark::{Campaign, CampaignFolder, KindCount, Merged, MergedPanel, Record};
+use benchmark::{CampaignFolder, KindCount, MergedPanel, Record};
 use cli::{display_path, print};
 use report::{FileHash, Provenance, sha256_of};
 
@@ -15,24 +15,14 @@ pub fn run(arguments: &Folder) -> Result<BenchExitStatus, BenchError> {
     let made = folder.manifest()?;
     let doubts = missing(&made, &KindCount::all(&folder, &made));
     let provenance = provenance(&folder)?;
-    let (text, json, page) = match folder.campaign() {
-        Campaign::Scenario(_) => {
-            let merged = Merged::new(&folder, &made);
-            let page = benchmark::trials_page(&merged, &doubts, &provenance)?;
-            (merged.text(), serde_json::to_string_pretty(&merged), page)
-        }
-        Campaign::Population(_) => {
-            let merged = MergedPanel::new(&folder, &made);
-            let page = benchmark::panel_page(&merged, &doubts, &provenance)?;
-            (merged.text(), serde_json::to_string_pretty(&merged), page)
-        }
-    };
-    let json = json.map_err(std::io::Error::from)?;
+    let merged = MergedPanel::new(&folder, &made);
+    let page = benchmark::panel_page(&merged, &doubts, &provenance)?;
+    let json = serde_json::to_string_pretty(&merged).map_err(std::io::Error::from)?;
     let records: Vec<Record> = made.records.into_values().collect();
     Record::write(&root.join("trials.parquet"), &records)?;
     let files = [("tally.json", json.as_bytes()), ("report.html", page.as_bytes())];
     report::write_folder(root, &files)?;
-    print(&format!("{text}{}", sentences(&doubts)))?;
+    print(&format!("{}{}", merged.text(), sentences(&doubts)))?;
     print(&format!("\nreport  {}\n", display_path(&root.join("report.html"))))?;
     Ok(if doubts.is_empty() { BenchExitStatus::Good } else { BenchExitStatus::Gap })
 }

@@ -9,23 +9,13 @@ use crate::baselines::scales::Scales;
 use crate::baselines::shape::Shape;
 use crate::error::BenchmarkError;
 
-/// The result of a simple method on logs.
+/// The result of plain least squares on logs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Baseline {
     /// Names of causes, strongest first.
     pub names: Vec<EffectAt>,
     weights: Vec<Vec<Weighted>>,
-    nominal: Nominal,
     scales: Scales,
-}
-
-/// Whether fitted columns are added to the nominal robot or replace it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Nominal {
-    /// Columns are added to its effort.
-    Kept,
-    /// Columns are all of the effort.
-    Replaced,
 }
 
 /// A column and its weight.
@@ -38,12 +28,8 @@ pub(super) struct Weighted {
 }
 
 impl Baseline {
-    pub(super) fn new(
-        names: Vec<EffectAt>,
-        weights: Vec<Vec<Weighted>>,
-        (nominal, scales): (Nominal, Scales),
-    ) -> Self {
-        Self { names, weights, nominal, scales }
+    pub(super) fn new(names: Vec<EffectAt>, weights: Vec<Vec<Weighted>>, scales: Scales) -> Self {
+        Self { names, weights, scales }
     }
 
     /// Predicted effort of every joint along a run, `[joint][sample]` at the samples of the run (N m or N). It is not
@@ -59,10 +45,7 @@ impl Baseline {
         let run_columns = RunColumns::new(robot, &self.scales, run, 1);
         let shapes: Vec<Vec<Shape>> =
             self.weights.iter().map(|w| w.iter().map(|w| w.shape).collect()).collect();
-        let mut efforts = match self.nominal {
-            Nominal::Kept => run_columns.nominal.clone(),
-            Nominal::Replaced => vec![vec![0.0; run_columns.samples()]; robot.joint_count()],
-        };
+        let mut efforts = vec![vec![0.0; run_columns.samples()]; robot.joint_count()];
         let columns = run_columns.columns(&shapes);
         for ((effort, weights), columns) in efforts.iter_mut().zip(&self.weights).zip(columns) {
             for (Weighted { weight, .. }, column) in weights.iter().zip(columns) {

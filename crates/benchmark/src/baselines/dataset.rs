@@ -6,7 +6,6 @@ use faer::{Mat, MatRef};
 use logs::{LogError, Prepared, PreparedRun};
 use robot::Robot;
 
-use crate::baselines::folds::folds;
 use crate::baselines::run_columns::RunColumns;
 use crate::baselines::scales::Scales;
 use crate::baselines::shape::Shape;
@@ -16,29 +15,18 @@ use crate::baselines::shape::Shape;
 const SETTLING_PERIODS: f64 = 1.5;
 const SETTLING_S: f64 = 0.5;
 
-/// The signal that the columns explain.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Target {
-    /// Effort minus that of the nominal robot.
-    Gap,
-    /// Effort.
-    Effort,
-}
-
 /// All columns at one joint over all runs, and their sums of products.
 pub(super) struct Joint {
-    /// Shapes of the columns; the target follows them.
+    /// Shapes of the columns; the effort follows them.
     pub shapes: Vec<Shape>,
     /// RMS of each column, by which the stored columns are divided.
     pub scales: Vec<f64>,
-    /// Values column by column, the target last.
+    /// Values column by column, the effort last.
     columns: Vec<f64>,
     /// Number of samples over all runs.
     pub samples: usize,
     /// Gram matrix over all samples.
     pub total: Mat<f64>,
-    /// Gram matrices of the training samples and of the held-out samples of each fold.
-    pub folds: Vec<[Mat<f64>; 2]>,
     /// RMS of the effort (N m or N).
     pub torque_rms: f64,
 }
@@ -51,11 +39,10 @@ pub(super) struct Dataset {
     pub runs: Vec<Range<usize>>,
 }
 
-/// Columns by joint that grow run by run, followed by the effort and the target.
+/// Columns by joint that grow run by run, followed by the effort.
 struct Growing {
     columns: Vec<Vec<Vec<f64>>>,
     runs: Vec<Range<usize>>,
-    rate_hz: f64,
 }
 
 impl Dataset {
@@ -68,16 +55,15 @@ impl Dataset {
         (robot, scales): (&Robot, &Scales),
         logs: &Prepared,
         shapes: Vec<Vec<Shape>>,
-        target: Target,
     ) -> Result<Self, LogError> {
-        let columns = shapes.iter().map(|s| vec![Vec::new(); s.len() + 2]).collect();
-        let mut growing = Growing { columns, runs: Vec::new(), rate_hz: 1.0 };
+        let columns = shapes.iter().map(|s| vec![Vec::new(); s.len() + 1]).collect();
+        let mut growing = Growing { columns, runs: Vec::new() };
         for run in &logs.runs {
-            growing.add((robot, scales), (run, logs.cutoff_hz), &shapes, target)?;
+            growing.add((robot, scales), (run, logs.cutoff_hz), &shapes)?;
         }
-        let Growing { columns, runs, rate_hz } = growing;
+        let Growing { columns, runs } = growing;
         let all = columns.into_iter().zip(shapes);
-        let joints = all.map(|(columns, shapes)| Joint::of(columns, shapes, (&runs, rate_hz)));
+        let joints = all.map(|(columns, shapes)| Joint::of(columns, shapes, &runs));
         Ok(Self { joints: joints.collect(), runs })
     }
 }
@@ -88,16 +74,15 @@ impl Growing {
         (robot, scales): (&Robot, &Scales),
         (run, cutoff_hz): (&PreparedRun, f64),
         shapes: &[Vec<Shape>],
-        target: Target,
     ) -> Result<(), LogError> {
         let band = Band::new(cutoff_hz, run.rate_hz)?;
         let run_columns = RunColumns::new(robot, scales, run, band.stride);
         let start = self.runs.last().map_or(0, |last| last.end);
-        self.rate_hz = run.rate_hz / band.whole_stride() as f64;
+        let rate_hz = run.rate_hz / band.whole_stride() as f64;
         let mut added = 0;
         let mut put = |into: &mut Vec<f64>, values: &[f64]| {
             let end_s = SETTLING_S.max(SETTLING_PERIODS / cutoff_hz);
-            let end = (end_s * self.rate_hz).ceil() as usize;
+            let end = (end_s * rate_hz).ceil() as usize;
             let end = if values.len() > 8 * end { end } else { 0 };
             into.extend_from_slice(&values[end..values.len() - end]);
             added = values.len() - 2 * end;
@@ -108,11 +93,7 @@ impl Growing {
                 put(into, &band.of_column(column));
             }
             let effort = band.of_log(run.joints[j].effort.clone());
-            let nominal = band.of_column(run_columns.nominal[j].clone());
-            let gap: Vec<f64> = effort.iter().zip(nominal).map(|(e, n)| e - n).collect();
-            let width = shapes[j].len();
-            put(&mut all[width], if target == Target::Gap { &gap } else { &effort });
-            put(&mut all[width + 1], &effort);
+            put(&mut all[shapes[j].len()], &effort);
         }
         self.runs.push(start..start + added);
         Ok(())
@@ -120,12 +101,8 @@ impl Growing {
 }
 
 impl Joint {
-    fn of(
-        mut columns: Vec<Vec<f64>>,
-        shapes: Vec<Shape>,
-        (runs, rate_hz): (&[Range<usize>], f64),
-    ) -> Self {
-        let torque_rms = columns.pop().map_or(0.0, |effort| rms(&effort));
+    fn of(mut columns: Vec<Vec<f64>>, shapes: Vec<Shape>, runs: &[Range<usize>]) -> Self {
+        let torque_rms = columns.last().map_or(0.0, |effort| rms(effort));
         let samples = columns.last().map_or(0, Vec::len);
         let mut scales = Vec::new();
         for column in columns.iter_mut().take(shapes.len()) {
@@ -136,28 +113,21 @@ impl Joint {
         }
         let columns = columns.concat();
         let width = shapes.len() + 1;
-        let sums = |ranges: &[Range<usize>]| sums(&columns, [samples, width], ranges);
-        let held = folds(runs, rate_hz);
-        let parts: Vec<[Mat<f64>; 2]> =
-            held.iter().map(|f| [sums(&f.held), sums(&f.near)]).collect();
-        let mut total = Mat::zeros(width, width);
-        parts.iter().for_each(|[held, _]| total += held);
-        let folds = parts.into_iter().map(|[held, near]| [&total - &held - &near, held]);
-        let folds = folds.collect();
-        Self { shapes, scales, columns, samples, total, folds, torque_rms }
+        let total = sums(&columns, [samples, width], runs);
+        Self { shapes, scales, columns, samples, total, torque_rms }
     }
 
-    /// Index of the target among the columns.
+    /// Index of the effort among the columns.
     pub fn target(&self) -> usize {
         self.shapes.len()
     }
 
-    /// A column, or the target.
+    /// A column, or the effort.
     pub fn column(&self, index: usize) -> &[f64] {
         &self.columns[index * self.samples..(index + 1) * self.samples]
     }
 
-    /// The target minus the columns times their weights.
+    /// The effort minus the columns times their weights.
     pub fn residual_of(&self, columns: &[usize], weights: &[f64]) -> Vec<f64> {
         let mut left = self.column(self.target()).to_vec();
         for (&column, weight) in columns.iter().zip(weights) {

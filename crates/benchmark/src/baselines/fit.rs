@@ -7,8 +7,6 @@ const DEPENDENT: f64 = 1e-10;
 pub(super) struct Fit {
     /// One weight per column; 0 for columns that depend on others.
     pub weights: Vec<f64>,
-    /// Number of independent columns.
-    pub rank: usize,
     /// Sum of squares of the residual.
     pub square: f64,
 }
@@ -50,7 +48,7 @@ pub(super) fn fit(gram: &Mat<f64>, columns: &[usize], target: usize) -> Fit {
         let later: f64 = (0..m).map(|k| a[p * m + k] * weights[k]).sum();
         weights[p] = (b[p] - later) / a[p * m + p];
     }
-    Fit { weights, rank: order.len(), square: square.max(0.0) }
+    Fit { weights, square: square.max(0.0) }
 }
 
 /// Sum of squares of the target minus `weights` times the columns, on the samples of a Gram matrix.

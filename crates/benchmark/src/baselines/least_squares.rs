@@ -5,8 +5,8 @@ use faer::Mat;
 use logs::{PrepareSettings, Run};
 use robot::Robot;
 
-use crate::baselines::baseline::{Baseline, Nominal, Weighted};
-use crate::baselines::dataset::{Dataset, Joint, Target};
+use crate::baselines::baseline::{Baseline, Weighted};
+use crate::baselines::dataset::{Dataset, Joint};
 use crate::baselines::fit::{fit, square_left};
 use crate::baselines::memory::memory;
 use crate::baselines::prepare_runs::prepare_runs;
@@ -54,14 +54,14 @@ pub fn least_squares(
     let columns: Vec<RegressorColumn> = columns.into_iter().filter(|c| shows(c, &scales)).collect();
     let at_joint = |j: usize| columns.iter().filter_map(|c| shape(robot, j, c)).collect();
     let shapes = (0..robot.joint_count()).map(at_joint).collect();
-    let dataset = Dataset::of((robot, &scales), &logs, shapes, Target::Effort)?;
+    let dataset = Dataset::of((robot, &scales), &logs, shapes)?;
     let mut fit = Fitted { robot, dataset, columns, deviations: Vec::new(), parameters: vec![] };
     fit.deviations = fit.dataset.joints.iter().map(|j| j.torque_rms).collect();
     fit.solve();
     fit.deviations = (0..robot.joint_count()).map(|j| fit.residual_rms(j)).collect();
     fit.solve();
     let weights = (0..robot.joint_count()).map(|j| fit.weights(j)).collect();
-    Ok(Baseline::new(fit.names(), weights, (Nominal::Replaced, scales)))
+    Ok(Baseline::new(fit.names(), weights, scales))
 }
 
 /// Whether a drive's column is informative: a joint that does not move shows no friction.

@@ -35,16 +35,3 @@ pub(super) fn prepare_runs(
     }
     Ok(prepared)
 }
-
-/// Rate of the slowest run (Hz), by the median of its steps; infinite without a step.
-pub(super) fn slowest_rate_hz(runs: &[Run]) -> f64 {
-    let rate = |run: &Run| {
-        let mut steps: Vec<f64> = run.time.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let middle = steps.len() / 2;
-        if steps.is_empty() {
-            return f64::INFINITY;
-        }
-        steps.select_nth_unstable_by(middle, f64::total_cmp).1.recip()
-    };
-    runs.iter().map(rate).fold(f64::INFINITY, f64::min)
-}

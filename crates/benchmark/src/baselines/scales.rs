@@ -15,9 +15,6 @@ const SIGN_WIDTH: f64 = 0.5;
 pub(super) struct Scales {
     /// Speed at which the direction of a joint is `tanh(1)` (rad/s or m/s).
     pub sign_speed: Vec<f64>,
-    /// Phase per position: 1 for a revolute joint. For a prismatic joint the range in the logs counts as one turn
-    /// (rad/m).
-    pub phase_per_way: Vec<f64>,
     /// Whether the joint moves.
     pub moves: Vec<bool>,
 }
@@ -36,13 +33,8 @@ impl Scales {
         };
         let least = |j: usize| LEAST_WAY.max(LEAST_SHARE * longest(kinds[j]));
         let moves: Vec<bool> = (0..ways.len()).map(|j| ways[j] >= least(j)).collect();
-        let phase = |j: usize| match kinds[j] || !moves[j] {
-            true => 1.0,
-            false => std::f64::consts::TAU / ways[j],
-        };
         Self {
             sign_speed: rest_speeds(logs).into_iter().map(|speed| SIGN_WIDTH * speed).collect(),
-            phase_per_way: (0..ways.len()).map(phase).collect(),
             moves,
         }
     }

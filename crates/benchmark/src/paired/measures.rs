@@ -1,12 +1,10 @@
 use std::fmt;
 
-use diagnosis::Verdict;
-use experiment::Score;
 use serde::Serialize;
 
 use crate::panel::judgement::Judgement;
+use crate::statistics::rate::Fraction;
 use crate::trials::record::Record;
-use crate::trials::scored::Scored;
 
 /// Yes-or-no measures of a trial.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -21,6 +19,14 @@ pub enum Measure {
     /// The findings make the torque prediction worse by more than 1 %.
     #[serde(rename = "worse")]
     WorsePrediction,
+    /// The extended robot predicts the torque worse than plain least squares by more than 2 %.
+    WorseThanByHand,
+    /// A finding about a link is off in mass or centre of mass by more than its interval.
+    BodyOff,
+    /// A reason contradicts the answer.
+    Contradicting,
+    /// Spoilt logs are taken for what they are not.
+    Misled,
 }
 
 /// Numeric measures of a trial.
@@ -31,16 +37,30 @@ pub enum TrialQuantity {
     Precision,
     /// Visible causes that are named, over all visible causes.
     Recall,
+    /// Visible causes that are ruled out with a reason, over all visible causes.
+    RuledOut,
+    /// Findings of which the logs determine a size, over all findings.
+    SizesTold,
     /// Held-out torque error with the findings over the error without, clipped to 0.001 to 1000.
     ErrorRatio,
+    /// The same over the error of plain least squares.
+    ByHandRatio,
     /// Time of the diagnosis (s).
     Time,
 }
 
 impl Measure {
     /// All measures.
-    pub const ALL: [Self; 4] =
-        [Self::Right, Self::FalseAssurance, Self::FalseAlarm, Self::WorsePrediction];
+    pub const ALL: [Self; 8] = [
+        Self::Right,
+        Self::FalseAssurance,
+        Self::FalseAlarm,
+        Self::WorsePrediction,
+        Self::WorseThanByHand,
+        Self::BodyOff,
+        Self::Contradicting,
+        Self::Misled,
+    ];
 
     /// Whether yes is the better answer.
     pub fn is_yes_better(self) -> bool {
@@ -49,93 +69,66 @@ impl Measure {
 
     /// The answer for a trial; `None` where the measure does not apply.
     pub(super) fn of(self, record: &Record) -> Option<bool> {
-        match (&record.score, self) {
-            (Err(_), Self::Right) => Some(false),
-            (Err(_), _) => None,
-            (Ok(Scored::Panel(one)), _) => self.of_panel(one),
-            (Ok(Scored::Scenario(one)), _) => self.of_scenario(one),
+        match &record.score {
+            Err(_) => (self == Self::Right).then_some(false),
+            Ok(one) => self.of_judgement(one),
         }
     }
 
-    fn of_panel(self, one: &Judgement) -> Option<bool> {
+    fn of_judgement(self, one: &Judgement) -> Option<bool> {
+        let some = |fraction: Fraction| (fraction.items > 0).then_some(fraction.hits > 0.0);
         match self {
             Self::Right => one.right(),
             Self::FalseAssurance => one.false_assurance(),
             Self::FalseAlarm => one.false_alarm(),
-            Self::WorsePrediction => one.prediction.worse(),
-        }
-    }
-
-    /// The injected effects of a scenario count as visible, those that are not looked for as effects of no catalogue.
-    fn of_scenario(self, one: &Score) -> Option<bool> {
-        let hides = !one.injected.is_empty();
-        let named = one.looked_for && one.is_found();
-        match self {
-            Self::Right => Some(one.stray.is_empty() && (named || !one.looked_for)),
-            Self::FalseAssurance => hides.then_some(match one.verdict {
-                Verdict::Consistent => true,
-                Verdict::Explained => !named,
-                _ => false,
-            }),
-            Self::FalseAlarm => (!hides).then(|| {
-                let open = matches!(one.verdict, Verdict::Unexplained | Verdict::PartlyExplained);
-                open || !one.stray.is_empty()
-            }),
-            Self::WorsePrediction => {
-                let gain = one.gains.as_ref()?.torque?;
-                Some(gain.after > 1.01 * gain.before)
-            }
+            Self::WorsePrediction => one.fair_prediction()?.worse(),
+            Self::WorseThanByHand => one.fair_prediction()?.worse_than_by_hand(),
+            Self::BodyOff => some(one.bodies_off()),
+            Self::Contradicting => some(one.contradicting()),
+            Self::Misled => one.misled(),
         }
     }
 }
 
 impl TrialQuantity {
     /// All quantities.
-    pub const ALL: [Self; 4] = [Self::Precision, Self::Recall, Self::ErrorRatio, Self::Time];
+    pub const ALL: [Self; 7] = [
+        Self::Precision,
+        Self::Recall,
+        Self::RuledOut,
+        Self::SizesTold,
+        Self::ErrorRatio,
+        Self::ByHandRatio,
+        Self::Time,
+    ];
 
     /// Whether it is compared by its logarithm and reported as a factor.
     pub fn is_factor(self) -> bool {
-        matches!(self, Self::ErrorRatio | Self::Time)
+        matches!(self, Self::ErrorRatio | Self::ByHandRatio | Self::Time)
     }
 
     /// The number for a trial, or its logarithm; `None` where the trial has none.
     pub(super) fn of(self, record: &Record) -> Option<f64> {
-        let number = match record.score.as_ref().ok()? {
-            Scored::Panel(one) => self.of_panel(one)?,
-            Scored::Scenario(one) => self.of_scenario(one)?,
-        };
+        let number = self.of_judgement(record.judgement()?)?;
         match self {
-            Self::ErrorRatio => Some(number.clamp(1e-3, 1e3).ln()),
+            Self::ErrorRatio | Self::ByHandRatio => Some(number.clamp(1e-3, 1e3).ln()),
             Self::Time => (number > 0.0).then(|| number.ln()),
-            Self::Precision | Self::Recall => Some(number),
+            Self::Precision | Self::Recall | Self::RuledOut | Self::SizesTold => Some(number),
         }
     }
 
-    fn of_panel(self, one: &Judgement) -> Option<f64> {
+    fn of_judgement(self, one: &Judgement) -> Option<f64> {
         match self {
             Self::Precision => one.precision()?.value(),
             Self::Recall => one.recall().value(),
-            Self::ErrorRatio => one.prediction.ratio(one.prediction.extended.as_ref()),
-            Self::Time => Some(one.costs.diagnosis_s),
-        }
-    }
-
-    fn of_scenario(self, one: &Score) -> Option<f64> {
-        let part = |hits: usize, of: usize| (of > 0).then(|| hits as f64 / of as f64);
-        match self {
-            Self::Precision => part(
-                one.findings.len() - one.stray.len().min(one.findings.len()),
-                one.findings.len(),
-            ),
-            Self::Recall if !one.looked_for => None,
-            Self::Recall => {
-                part(one.injected.iter().filter(|p| p.one_of.is_some()).count(), one.injected.len())
-            }
+            Self::RuledOut => one.ruled_out().value(),
+            Self::SizesTold => one.sizes_told().value(),
             Self::ErrorRatio => {
-                let gain = one.gains.as_ref()?.torque?;
-                (gain.before > 0.0).then(|| gain.after / gain.before).filter(|r| !r.is_nan())
+                let prediction = one.fair_prediction()?;
+                prediction.ratio(prediction.extended.as_ref())
             }
-            Self::Time => None,
+            Self::ByHandRatio => one.fair_prediction()?.by_hand_ratio(),
+            Self::Time => Some(one.costs.diagnosis_s),
         }
     }
 }
@@ -147,6 +140,10 @@ impl fmt::Display for Measure {
             Self::FalseAssurance => "false assurance",
             Self::FalseAlarm => "false alarm",
             Self::WorsePrediction => "worse prediction",
+            Self::WorseThanByHand => "worse than by hand",
+            Self::BodyOff => "a body off",
+            Self::Contradicting => "contradicting reason",
+            Self::Misled => "misled by spoilt logs",
         })
     }
 }
@@ -156,7 +153,10 @@ impl fmt::Display for TrialQuantity {
         f.pad(match self {
             Self::Precision => "precision",
             Self::Recall => "recall",
+            Self::RuledOut => "true, ruled out",
+            Self::SizesTold => "sizes told",
             Self::ErrorRatio => "error of torque",
+            Self::ByHandRatio => "error over by hand",
             Self::Time => "time",
         })
     }

@@ -2,7 +2,6 @@ use serde::Serialize;
 
 use crate::paired::measures::Measure;
 use crate::trials::record::Record;
-use crate::trials::scored::Scored;
 
 /// A trial that two results answer differently.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -48,11 +47,11 @@ impl Turned {
 }
 
 fn about(records: [&Record; 2]) -> String {
-    let corner = |record: &&Record| match &record.score {
-        Ok(Scored::Panel(one)) => {
-            Some(format!("{}, {}", one.corner.arm, one.corner.motion).replace('_', " "))
-        }
-        _ => record.hidden.map(|hidden| hidden.to_string()),
+    let hidden = |record: &&Record| record.hidden.map(|hidden| hidden.to_string());
+    let corner = |record: &&Record| {
+        let corner = &record.judgement()?.corner;
+        Some(format!("{}, {}", corner.arm, corner.motion).replace('_', " "))
     };
-    records.iter().find_map(corner).unwrap_or_else(|| "population".to_owned())
+    let about = records.iter().find_map(hidden).or_else(|| records.iter().find_map(corner));
+    about.unwrap_or_else(|| "population".to_owned())
 }

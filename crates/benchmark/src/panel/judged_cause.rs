@@ -1,4 +1,5 @@
-use diagnosis::{EffectAt, Finding};
+use catalogue::EffectKind;
+use diagnosis::{EffectAt, Finding, RuledOut};
 use experiment::{Size, stored};
 use population::{CauseRole, Strength, TrueCause};
 use serde::{Deserialize, Serialize};
@@ -19,10 +20,12 @@ pub struct JudgedCause {
     pub strength: Strength,
     /// Index of the finding that names it.
     pub finding: Option<usize>,
-    /// Index of the first finding that is the cause or has it as a rival.
+    /// Index of the first finding that is the cause, has it as a rival, or bears it: Coulomb friction is borne by
+    /// every form of dry friction of its joint.
     pub one_of: Option<usize>,
-    /// Whether the two questions name it.
-    pub two_questions: bool,
+    /// Why the diagnosis rules it out, if it does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ruled_out: Option<String>,
     /// Whether plain least squares names it.
     pub least_squares: bool,
     /// Its parameters; levels of dry friction are those of all causes at the joint.
@@ -34,22 +37,23 @@ impl JudgedCause {
     pub(super) fn new(
         (cause, all): (&TrueCause, &[TrueCause]),
         findings: &[&Finding],
-        claims: [&[BaselineClaim]; 2],
+        ruled_out: &[RuledOut],
+        claims: &[BaselineClaim],
     ) -> Self {
         let at = place(cause);
         let finding = findings.iter().position(|f| f.at == at);
-        let says = |f: &&Finding| f.at == at || f.not_separable_from.contains(&at);
+        let says =
+            |f: &&Finding| f.at == at || f.not_separable_from.contains(&at) || bears(&f.at, &at);
         let one_of = findings.iter().position(says);
         let estimates = finding.map_or(&[][..], |f| &findings[f].parameters);
-        let [two_questions, least_squares] =
-            claims.map(|claims| claims.iter().any(|claim| claim.at == at));
+        let ruled_out = ruled_out.iter().find(|other| other.at == at);
         Self {
             role: cause.role,
             strength: finite(cause.strength),
             finding,
             one_of,
-            two_questions,
-            least_squares,
+            ruled_out: ruled_out.map(|other| other.because.clone()),
+            least_squares: claims.iter().any(|claim| claim.at == at),
             sizes: Size::all(
                 &DryFriction::beside(cause, all).with(&cause.truth, estimates),
                 estimates,
@@ -63,10 +67,25 @@ impl JudgedCause {
         self.strength.visible()
     }
 
-    /// Whether it is a finding or a rival of one.
+    /// Whether a finding is it, has it as a rival or bears it.
     pub fn is_named(&self) -> bool {
         self.one_of.is_some()
     }
+}
+
+/// Whether a finding is a form of dry friction that bears Coulomb friction of the same joint: each opposes the motion
+/// at any speed, so that a constant level is part of its own.
+fn bears(finding: &EffectAt, cause: &EffectAt) -> bool {
+    use EffectKind as E;
+    let is_form = matches!(
+        finding.effect,
+        E::AsymmetricFriction
+            | E::StribeckFriction
+            | E::PreslidingFriction
+            | E::LoadDependentFriction
+            | E::PositionDependentFriction
+    );
+    is_form && cause.effect == E::CoulombFriction && finding.joint == cause.joint
 }
 
 /// A strength that JSON can hold. An infinite strength, of a cause without noise, becomes the largest number; NaN

@@ -2,6 +2,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use catalogue::EffectKind;
 use diagnosis::{DiagnosisError, DiagnosisRun, Settings, Silent};
 use experiment::{ExperimentError, robot_error};
 use population::{Came, Origin, PopulationSpec, Remade, Store, TruthSheet};
@@ -9,12 +10,11 @@ use robot::{Loaded, Robot};
 
 use crate::baselines::baseline::Baseline;
 use crate::baselines::least_squares::least_squares;
-use crate::baselines::two_questions::two_questions;
 use crate::error::BenchmarkError;
 use crate::panel::answers::{Answers, Costs, HeldOut};
 use crate::panel::judgement::Judgement;
 use crate::panel::peak_memory::{peak_mb, restart_peak};
-use crate::trial_folder::read_runs;
+use crate::trial_folder::{HELD_OUT, LOGS, NOMINAL, read_runs};
 
 /// A judged trial, and the entry of the store that had to be replaced for it.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +28,7 @@ pub struct Judged {
 /// Makes a trial of a population, diagnoses its logs through files, and only then opens its sheet.
 ///
 /// ```text
-/// task, seed --store or draw--> nominal/, logs/ --diagnose, baselines--> answers --\
+/// task, seed --store or draw--> nominal/, logs/ --diagnose, least squares--> answers --\
 ///                          \--> held_out/ --errors of all models--> held out ------> Judgement
 ///                           \--> sheet.json ------------------------- opened last -/
 /// ```
@@ -61,19 +61,36 @@ pub fn run(
             (folder.to_owned(), None, seconds(start.elapsed()))
         }
     };
-    let answers = answers(&folder, made_s)?;
-    let judgement = Judgement::new(&TruthSheet::open(&folder)?, &answers);
-    Ok(Judged { judgement, remade })
+    Ok(Judged { judgement: judge(&folder, &[], made_s)?, remade })
 }
 
-/// The answers of diagnosis and baselines, from the nominal model and the logs alone.
-fn answers(folder: &Path, logs_s: f64) -> Result<Answers, BenchmarkError> {
+/// Judges a trial whose folder is made: nominal model, logs and, where there is one, a held-out log are read, the logs
+/// are diagnosed without a look for some effects, and only then the sheet is opened. `logs_s` is the time that making
+/// the logs took.
+///
+/// # Errors
+///
+/// [`BenchmarkError`] when a file cannot be read.
+pub fn judge(
+    folder: &Path,
+    without: &[EffectKind],
+    logs_s: f64,
+) -> Result<Judgement, BenchmarkError> {
+    let answers = answers(folder, without, logs_s)?;
+    Ok(Judgement::new(&TruthSheet::open(folder)?, &answers))
+}
+
+/// The answers of diagnosis and plain least squares, from the nominal model and the logs alone.
+fn answers(folder: &Path, without: &[EffectKind], logs_s: f64) -> Result<Answers, BenchmarkError> {
     let robot = nominal(folder)?;
     let rate_hz = robot.control.rate_hz;
-    let held_out = read_runs(&folder.join("held_out"), &robot.robot)?;
-    let error_of = |robot: &Robot| robot_error(robot, rate_hz, &held_out).ok();
+    let held_out = match folder.join(HELD_OUT) {
+        there if there.is_dir() => Some(read_runs(&there, &robot.robot)?),
+        _ => None,
+    };
+    let error_of = |robot: &Robot| robot_error(robot, rate_hz, held_out.as_deref()?).ok();
     let nominal = error_of(&robot.robot);
-    let given = match read_runs(&folder.join("logs"), &robot.robot) {
+    let given = match read_runs(&folder.join(LOGS), &robot.robot) {
         Ok(given) => given,
         Err(BenchmarkError::Experiment(error)) => {
             let ExperimentError::Log(refusal) = &*error else { return Err((*error).into()) };
@@ -84,31 +101,25 @@ fn answers(folder: &Path, logs_s: f64) -> Result<Answers, BenchmarkError> {
         }
         Err(error) => return Err(error),
     };
-    let settings = Settings { control_rate_hz: rate_hz, ..Settings::default() };
+    let without = without.to_vec();
+    let settings = Settings { control_rate_hz: rate_hz, without, ..Settings::default() };
     restart_peak();
     let (diagnosed, diagnosis_s) =
         time(|| catch_panic(|| diagnosis::diagnose(&robot.robot, &given, &settings, &Silent)));
     let peak_memory_mb = peak_mb();
     let (plain, least_squares_s) = time(|| least_squares(&robot.robot, rate_hz, &given));
-    let (asked, two_questions_s) = time(|| two_questions(&robot.robot, rate_hz, &given));
-    let of = |baseline: &Result<Baseline, BenchmarkError>| {
-        baseline.as_ref().ok()?.held_out_error(&robot.robot, rate_hz, &held_out).ok()
-    };
-    let names = |baseline: &Result<Baseline, BenchmarkError>| {
-        baseline.as_ref().map_or_else(|_| Vec::new(), |baseline| baseline.names.clone())
-    };
+    let by_hand =
+        |fitted: &Baseline| fitted.held_out_error(&robot.robot, rate_hz, held_out.as_deref()?).ok();
     // Who refuses the logs leaves the robot as it is.
     let extended = diagnosed.as_ref().map_or(&robot.robot, |outcome| &outcome.extended);
     Ok(Answers {
         held_out: HeldOut {
             nominal,
             extended: error_of(extended),
-            least_squares: of(&plain),
-            two_questions: of(&asked),
+            least_squares: plain.as_ref().ok().and_then(by_hand),
         },
-        two_questions: names(&asked),
-        least_squares: names(&plain),
-        costs: Costs { logs_s, diagnosis_s, least_squares_s, two_questions_s, peak_memory_mb },
+        least_squares: plain.map_or_else(|_| Vec::new(), |fitted| fitted.names),
+        costs: Costs { logs_s, diagnosis_s, least_squares_s, peak_memory_mb },
         diagnosis: diagnosed.map(|outcome| outcome.diagnosis),
     })
 }
@@ -127,13 +138,7 @@ fn catch_panic(
 fn answers_without_logs(why: String, nominal: Option<Vec<Option<f64>>>, logs_s: f64) -> Answers {
     Answers {
         diagnosis: Err(why),
-        held_out: HeldOut {
-            extended: nominal.clone(),
-            least_squares: nominal.clone(),
-            two_questions: nominal.clone(),
-            nominal,
-        },
-        two_questions: Vec::new(),
+        held_out: HeldOut { extended: nominal.clone(), least_squares: nominal.clone(), nominal },
         least_squares: Vec::new(),
         costs: Costs { logs_s, ..Costs::default() },
     }
@@ -141,7 +146,7 @@ fn answers_without_logs(why: String, nominal: Option<Vec<Option<f64>>>, logs_s: 
 
 /// The nominal model of a trial.
 pub(crate) fn nominal(folder: &Path) -> Result<Loaded, BenchmarkError> {
-    let files = ["robot.toml", "robot.urdf"].map(|name| folder.join("nominal").join(name));
+    let files = ["robot.toml", "robot.urdf"].map(|name| folder.join(NOMINAL).join(name));
     let file = files.iter().find(|file| file.is_file()).unwrap_or(&files[0]);
     Ok(Robot::load(file)?)
 }

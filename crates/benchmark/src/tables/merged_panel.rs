@@ -7,17 +7,17 @@ use crate::trials::campaign_folder::{CampaignFolder, Manifest};
 use crate::trials::failure::Failure;
 use crate::trials::kind_count::KindCount;
 
-/// The schema that `tally.json` of a population follows.
-pub const PANEL_SCHEMA: &str = "plumbline.panel/1";
+/// The schema that `tally.json` follows.
+pub const PANEL_SCHEMA: &str = "plumbline.panel/2";
 
-/// The results of the trials of a population, and their numbers.
+/// The results of the trials of a campaign, and their numbers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MergedPanel {
     /// Always [`PANEL_SCHEMA`].
     pub schema: &'static str,
     /// Hash of the campaign.
     pub campaign: String,
-    /// Number of trials.
+    /// Number of trials, by kind where there are kinds, and in all.
     pub counts: Vec<KindCount>,
     /// Why trials failed.
     pub failures: Vec<Failure>,
@@ -43,9 +43,9 @@ impl MergedPanel {
         }
     }
 
-    /// Numbers of trials, the tables, and the ledger of false alarms.
+    /// Number of all trials, the tables, and the ledger of false alarms.
     pub fn text(&self) -> String {
-        let counts = KindCount::table(&self.counts);
+        let counts = KindCount::table(&self.counts[self.counts.len().saturating_sub(1)..]);
         let failures = self.failures.iter().map(Failure::words).collect::<String>();
         format!("{}\n{}{}{failures}", counts.text(1), self.tally.text(), self.alarms.text())
     }

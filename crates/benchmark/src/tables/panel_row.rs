@@ -1,15 +1,15 @@
 use serde::Serialize;
 
-use crate::panel::judged_cause::JudgedCause;
-use crate::panel::judged_finding::BaselineClaim;
 use crate::panel::judgement::Judgement;
 use crate::panel::panel_side::PanelSide;
-use crate::panel::prediction::RelativeError;
-use crate::statistics::rate::Rate;
+use crate::panel::prediction::{Prediction, RelativeError};
+use crate::statistics::median::median;
+use crate::statistics::rate::{Fraction, Rate};
 use crate::statistics::share::Share;
-use crate::tables::tally::median;
 
-/// Trials of one side of a population.
+/// Trials with one property in common.
+///
+/// All but their number, refusals and costs is of trials whose logs are not spoilt.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PanelRow {
     /// The property that the trials have in common.
@@ -20,8 +20,6 @@ pub struct PanelRow {
     pub named: Naming,
     /// The same, weighted by torque: a finding by its share of the gap's power, a cause by its torque.
     pub named_by_torque: Naming,
-    /// Precision and recall of the two questions.
-    pub two_questions: Naming,
     /// Precision and recall of plain least squares.
     pub least_squares: Naming,
     /// Trials that hide something visible but are called consistent, or explained with some of it unnamed.
@@ -30,8 +28,28 @@ pub struct PanelRow {
     pub false_alarm: Share,
     /// Number of trials whose logs the diagnosis rejects.
     pub refused: usize,
-    /// Trials in which the findings make the torque prediction worse.
+    /// Number of trials whose logs are spoilt so that an oracle sees it.
+    pub spoilt: usize,
+    /// Trials in which the findings make the torque prediction worse than that of the robot as described.
     pub worse: Share,
+    /// Joints at which they do.
+    pub worse_joints: Rate,
+    /// Trials in which the extended robot predicts worse than plain least squares.
+    pub worse_than_by_hand: Share,
+    /// Joints at which it does.
+    pub joints_worse_than_by_hand: Rate,
+    /// Findings of which the logs determine a size.
+    pub sizes_told: Rate,
+    /// Median width of the 95 per cent intervals of those, over the value.
+    pub sharpness: Option<f64>,
+    /// Intervals of determined sizes that hold the truth, where a finding names a visible cause.
+    pub covered: Rate,
+    /// Findings about links whose mass or centre of mass is off by more than its interval, weighted by kg.
+    pub bodies_off: Rate,
+    /// Visible causes that are ruled out with a reason.
+    pub ruled_out: Rate,
+    /// Reasons that contradict the answer.
+    pub contradicting: Rate,
     /// Median torque errors over that of the robot as described.
     pub ratios: Ratios,
     /// Median time of a diagnosis (s).
@@ -60,8 +78,6 @@ pub struct Ratios {
     pub extended: Option<f64>,
     /// Of plain least squares.
     pub least_squares: Option<f64>,
-    /// Of the fit of the two questions.
-    pub two_questions: Option<f64>,
 }
 
 impl PanelRow {
@@ -69,6 +85,10 @@ impl PanelRow {
         let share = |is: fn(&Judgement) -> Option<bool>| {
             let answers: Vec<bool> = all.iter().filter_map(|one| is(one)).collect();
             Share::of(&answers, |answer| *answer)
+        };
+        let rate = |of: fn(&Judgement) -> Fraction| Rate::over(all.iter().map(|one| of(one)));
+        let joints = |of: fn(&Prediction) -> Fraction| {
+            Rate::over(all.iter().filter_map(|one| one.fair_prediction().map(of)))
         };
         let costs = |of: fn(&Judgement) -> f64| all.iter().map(|one| of(one)).collect::<Vec<_>>();
         let times = costs(|one| one.costs.diagnosis_s);
@@ -79,18 +99,32 @@ impl PanelRow {
             trials: all.len(),
             named: Naming {
                 precision: Rate::over(all.iter().filter_map(|one| one.precision())),
-                recall: Rate::over(all.iter().map(|one| one.recall())),
+                recall: rate(Judgement::recall),
             },
             named_by_torque: Naming {
                 precision: Rate::over(all.iter().filter_map(|one| one.precision_by_torque())),
-                recall: Rate::over(all.iter().map(|one| one.recall_by_torque())),
+                recall: rate(Judgement::recall_by_torque),
             },
-            two_questions: Naming::of(all, |one| &one.two_questions, |c| c.two_questions),
-            least_squares: Naming::of(all, |one| &one.least_squares, |c| c.least_squares),
+            least_squares: Naming {
+                precision: Rate::over(
+                    all.iter().filter_map(|one| one.precision_of_least_squares()),
+                ),
+                recall: rate(Judgement::recall_of_least_squares),
+            },
             false_assurance: share(Judgement::false_assurance),
             false_alarm: share(Judgement::false_alarm),
             refused: all.iter().filter(|one| one.refused.is_some()).count(),
-            worse: share(|one| one.prediction.worse()),
+            spoilt: all.iter().filter(|one| one.is_spoilt()).count(),
+            worse: share(|one| one.fair_prediction()?.worse()),
+            worse_joints: joints(Prediction::worse_joints),
+            worse_than_by_hand: share(|one| one.fair_prediction()?.worse_than_by_hand()),
+            joints_worse_than_by_hand: joints(Prediction::joints_worse_than_by_hand),
+            sizes_told: rate(Judgement::sizes_told),
+            sharpness: median(all.iter().flat_map(|one| one.sharpness()).collect()),
+            covered: rate(Judgement::covered),
+            bodies_off: rate(Judgement::bodies_off),
+            ruled_out: rate(Judgement::ruled_out),
+            contradicting: rate(Judgement::contradicting),
             ratios: Ratios::new(all),
             nine_of_ten_s: percentile_90(&times),
             median_s: median(times),
@@ -100,28 +134,15 @@ impl PanelRow {
     }
 }
 
-impl Naming {
-    fn of(
-        all: &[&Judgement],
-        claims: fn(&Judgement) -> &Vec<BaselineClaim>,
-        names: fn(&JudgedCause) -> bool,
-    ) -> Self {
-        Self {
-            precision: Rate::over(all.iter().filter_map(|one| one.precision_of(claims(one)))),
-            recall: Rate::over(all.iter().map(|one| one.recall_of(names))),
-        }
-    }
-}
-
 impl Ratios {
     fn new(all: &[&Judgement]) -> Self {
-        let of = |error: fn(&Judgement) -> Option<&RelativeError>| {
-            median(all.iter().filter_map(|one| one.prediction.ratio(error(one))).collect())
+        let fair = || all.iter().filter_map(|one| one.fair_prediction());
+        let of = |error: fn(&Prediction) -> Option<&RelativeError>| {
+            median(fair().filter_map(|prediction| prediction.ratio(error(prediction))).collect())
         };
         Self {
-            extended: of(|one| one.prediction.extended.as_ref()),
-            least_squares: of(|one| one.prediction.least_squares.as_ref()),
-            two_questions: of(|one| one.prediction.two_questions.as_ref()),
+            extended: of(|prediction| prediction.extended.as_ref()),
+            least_squares: of(|prediction| prediction.least_squares.as_ref()),
         }
     }
 }

@@ -5,9 +5,10 @@ use crate::panel::panel_side::PanelSide;
 use crate::tables::kind_row::KindRow;
 use crate::tables::panel_row::PanelRow;
 use crate::tables::slow_diagnosis::SlowDiagnosis;
+use crate::tables::spoiling_row::SpoilingRow;
 use crate::tables::stranger_row::StrangerRow;
 
-/// Results of the trials of a population.
+/// Results of the trials of a campaign.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PanelTally {
     /// All trials, then those by arm, origin, motion, effort, encoder, number of visible causes, number of logs, by
@@ -17,6 +18,8 @@ pub struct PanelTally {
     pub kinds: Vec<KindRow>,
     /// Effects of no catalogue by name.
     pub strangers: Vec<StrangerRow>,
+    /// Spoilt logs by what spoils them.
+    pub spoilings: Vec<SpoilingRow>,
     /// The diagnoses that took longest.
     pub slowest: Vec<SlowDiagnosis>,
 }
@@ -31,6 +34,7 @@ impl PanelTally {
             rows: sides.into_iter().map(|(side, own)| PanelRow::new(side, &own)).collect(),
             kinds: KindRow::all(&sorted),
             strangers: StrangerRow::all(&sorted),
+            spoilings: SpoilingRow::all(&sorted),
             slowest: SlowDiagnosis::all(&sorted),
         }
     }

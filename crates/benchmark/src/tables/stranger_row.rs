@@ -6,7 +6,8 @@ use serde::Serialize;
 use crate::panel::judgement::Judgement;
 use crate::statistics::share::Share;
 
-/// Trials whose data contain one effect of no catalogue.
+/// Trials whose data contain one effect of no catalogue, or one that the diagnosis does not look for, and whose logs are
+/// not spoilt.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StrangerRow {
     /// Name of the effect; `all` for all of them.
@@ -27,7 +28,7 @@ impl StrangerRow {
     pub(super) fn all(judgements: &[Judgement]) -> Vec<Self> {
         let mut named: BTreeMap<&str, Vec<(bool, &Judgement)>> = BTreeMap::new();
         let mut every = Vec::new();
-        for judgement in judgements {
+        for judgement in judgements.iter().filter(|one| !one.is_spoilt()) {
             for stranger in &judgement.strangers {
                 let one = (stranger.strength.visible(), judgement);
                 named.entry(&stranger.name).or_default().push(one);

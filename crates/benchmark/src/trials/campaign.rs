@@ -7,16 +7,20 @@ use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use crate::error::BenchmarkError;
+use crate::panel::judgement::Judgement;
 use crate::panel::population_trial;
 use crate::trials::hash::{hexadecimal, seed_of};
 use crate::trials::hidden::Hidden;
 use crate::trials::scenario_campaign::ScenarioCampaign;
-use crate::trials::scored::Scored;
+
+/// Version of what a shard holds. Another version gives every campaign another identity, so that shards of a judge that
+/// scored otherwise are named and made again.
+const JUDGE: &str = "judge/2\n";
 
 /// The key of a population.
 const POPULATION: &str = "population";
 
-/// A campaign of blind trials: either many random arms, or one arm with hidden effects.
+/// A campaign of blind trials: many random arms, or one arm with hidden effects. Trials of both are judged alike.
 #[derive(Debug, Clone)]
 pub enum Campaign {
     /// Trials of the arm of a scenario.
@@ -97,10 +101,11 @@ impl Campaign {
     /// Identity of the campaign: SHA-256 of everything that its scores depend on, except for this program and the
     /// recorded logs of a population.
     pub fn hash(&self) -> String {
-        match self {
-            Self::Scenario(campaign) => campaign.hash(),
-            Self::Population(campaign) => hexadecimal(&campaign.population.identity()),
-        }
+        let identity = match self {
+            Self::Scenario(campaign) => campaign.identity(),
+            Self::Population(campaign) => campaign.population.identity(),
+        };
+        hexadecimal(&(JUDGE.to_owned() + &identity))
     }
 
     /// The kind (if there are kinds) and the seed of a task, from 0 to [`trials`](Self::trials) - 1.
@@ -151,15 +156,15 @@ impl Campaign {
         scenario: &Path,
         folder: &Path,
         store: Option<&Store>,
-    ) -> Result<(Scored, Option<Remade>), BenchmarkError> {
+    ) -> Result<(Box<Judgement>, Option<Remade>), BenchmarkError> {
         match self {
             Self::Scenario(campaign) => {
-                Ok((campaign.trial(task, scenario).run(folder)?.into(), None))
+                Ok((Box::new(campaign.trial(task, scenario).run(folder)?), None))
             }
             Self::Population(campaign) => {
                 let (spec, (_, seed)) = (&campaign.population, self.task(task));
                 let judged = population_trial::run(spec, (task, seed), folder, store)?;
-                Ok((judged.judgement.into(), judged.remade))
+                Ok((Box::new(judged.judgement), judged.remade))
             }
         }
     }

@@ -11,6 +11,6 @@ pub(crate) mod record;
 pub(crate) mod record_columns;
 pub(crate) mod record_table;
 pub(crate) mod scenario_campaign;
-pub(crate) mod scored;
+pub(crate) mod scenario_sheet;
 pub(crate) mod trial;
 pub(crate) mod work;

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use arrow_array::{ArrayRef, BooleanArray, Float64Array, StringArray, UInt64Array};
-use experiment::Score;
 
 use crate::panel::judgement::Judgement;
 use crate::trials::record::Record;
@@ -11,36 +10,24 @@ use crate::trials::record::Record;
 /// A column and its name.
 pub(super) type Named = (&'static str, ArrayRef);
 
-/// Columns of every table.
-pub(super) fn of_all(records: &[Record]) -> Result<Vec<Named>, serde_json::Error> {
+/// All columns.
+pub(super) fn all(records: &[Record]) -> Result<Vec<Named>, serde_json::Error> {
     let json = |record: &Record| record.score.as_ref().ok().map(serde_json::to_string).transpose();
     let json = records.iter().map(json).collect::<Result<Vec<_>, _>>()?;
     let number = |of: fn(&Record) -> u64| numbers(records.iter().map(|r| Some(of(r))));
-    Ok(vec![
+    let mut columns = vec![
         ("task", number(|r| r.task as u64)),
         ("seed", number(|r| r.seed)),
         ("campaign", texts(records.iter().map(|r| Some(r.campaign.clone())))),
         ("error", texts(records.iter().map(|r| r.score.clone().err()))),
         ("score", texts(json.into_iter())),
-    ])
-}
-
-/// Further columns for trials of scenarios.
-pub(super) fn of_scenarios(records: &[Record]) -> Vec<Named> {
-    let scores = || records.iter().map(Record::scenario_score);
-    let answer = |of: fn(&Score) -> bool| answers(scores().map(|score| score.map(of)));
-    let verdict = |score: &Score| score.verdict.words().to_owned();
-    vec![
         ("hidden", texts(records.iter().map(|r| r.hidden.map(|hidden| hidden.to_string())))),
-        ("verdict", texts(scores().map(|score| score.map(verdict)))),
-        ("exactly", answer(|score| score.exactly)),
-        ("as_one_of", answer(|score| score.as_one_of)),
-        ("stray", numbers(scores().map(|score| score.map(|score| score.stray.len() as u64)))),
-    ]
+    ];
+    columns.extend(of_judgements(records));
+    Ok(columns)
 }
 
-/// Further columns for trials of a population.
-pub(super) fn of_panel(records: &[Record]) -> Vec<Named> {
+fn of_judgements(records: &[Record]) -> Vec<Named> {
     let judgements = || records.iter().map(Record::judgement);
     let text =
         |of: fn(&Judgement) -> &str| texts(judgements().map(|j| j.map(|j| of(j).to_owned())));
@@ -55,11 +42,13 @@ pub(super) fn of_panel(records: &[Record]) -> Vec<Named> {
         ("right", answer(Judgement::right)),
         ("findings", count(|j| j.findings.len())),
         ("true_findings", count(|j| j.findings.iter().filter(|f| f.is_true).count())),
-        ("visible", count(|j| j.visible().count())),
-        ("named", count(|j| j.visible().filter(|cause| cause.is_named()).count())),
+        ("visible", count(|j| j.asked().count())),
+        ("named", count(|j| j.asked().filter(|cause| cause.is_named()).count())),
         ("false_assurance", answer(Judgement::false_assurance)),
         ("false_alarm", answer(Judgement::false_alarm)),
-        ("worse", answer(|j| j.prediction.worse())),
+        ("misled", answer(Judgement::misled)),
+        ("worse", answer(|j| j.fair_prediction()?.worse())),
+        ("worse_than_by_hand", answer(|j| j.fair_prediction()?.worse_than_by_hand())),
         ("diagnosis_s", Arc::new(times.collect::<Float64Array>())),
     ]
 }

@@ -10,17 +10,12 @@ use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 
 use crate::trials::record::Record;
 use crate::trials::record_columns;
-use crate::trials::scored::Scored;
 
 impl Record {
     /// Writes the records of a campaign as Parquet, one row each: `task`, `seed`, `campaign`, `error` where there is
-    /// no score, the whole `score` as JSON, and the columns that tables are sorted by.
-    ///
-    /// | of a scenario | of a population |
-    /// |---|---|
-    /// | `hidden`, `verdict`, `exactly`, `as_one_of` | `arm`, `motion`, `verdict`, `right` |
-    /// | number of `stray` findings | numbers of `findings`, `true_findings`, `visible` and `named` causes |
-    /// | | `false_assurance`, `false_alarm`, `worse`, `diagnosis_s` |
+    /// no score, the whole `score` as JSON, and the columns that tables are sorted by: `hidden` for the arm of a
+    /// scenario, `arm`, `motion`, `verdict`, `right`, numbers of `findings`, `true_findings`, `visible` and `named`
+    /// causes, `false_assurance`, `false_alarm`, `misled`, `worse`, `worse_than_by_hand`, `diagnosis_s`.
     ///
     /// # Errors
     ///
@@ -30,11 +25,7 @@ impl Record {
             path: path.to_owned(),
             reason: e.to_string(),
         };
-        let of_scenarios = records.first().is_none_or(|record| record.hidden.is_some());
-        let own =
-            if of_scenarios { record_columns::of_scenarios } else { record_columns::of_panel };
-        let mut columns = record_columns::of_all(records).map_err(unwritable)?;
-        columns.extend(own(records));
+        let columns = record_columns::all(records).map_err(unwritable)?;
         let named = columns.into_iter().map(|(name, column)| (name.to_owned(), column));
         logs::write_table(path, named.collect(), Vec::new())
     }
@@ -79,7 +70,8 @@ fn record(batch: &RecordBatch, row: usize) -> Result<Record, String> {
         Err(_) => None,
     };
     let score = match (text("score"), text("error")) {
-        (Ok(json), _) => Ok(Scored::from_json(json, hidden)?),
+        (Ok(json), _) => Ok(serde_json::from_str(json)
+            .map_err(|e| format!("its score is none of this judge: {e}"))?),
         (Err(_), Ok(error)) => Err(error.to_owned()),
         (Err(lack), Err(_)) => return Err(format!("{lack} and no error")),
     };

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use simulator::scenario::{Scenario, ScenarioSpec};
 
 use crate::error::BenchmarkError;
-use crate::trials::hash::{hexadecimal, seed_of};
+use crate::trials::hash::seed_of;
 use crate::trials::hidden::Hidden;
 use crate::trials::trial::Trial;
 
@@ -19,7 +19,7 @@ const EACH: &str = "each";
 const WITHOUT_EACH: &str = "without_each";
 /// The word for the same, each left out together with the effects it is confused with.
 const STRANGE_EACH: &str = "strange_each";
-/// Version of the hashed text: another version gives every campaign another identity.
+/// Start of the identity of a campaign.
 const IDENTITY: &str = "campaign by content/1\n";
 /// Most trials of a kind.
 const MOST_SEEDS: usize = 1_000_000;
@@ -49,8 +49,8 @@ pub struct CampaignSpec {
     /// Settings of the scenario, `key=value` as `--set` takes them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub settings: Vec<String>,
-    /// Whether the last run of the scenario takes no part in the diagnosis and shows what that
-    /// gains: in torque, in simulation and in tracking.
+    /// Whether the last run of the scenario takes no part in the diagnosis and shows how well its
+    /// torque is predicted: by the robot as described, with the findings and by least squares.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub gains: bool,
 }
@@ -90,7 +90,7 @@ pub struct ScenarioCampaign {
     /// The scenario including the settings, as one text that can be read from any folder.
     scenario: String,
     /// Content of the scenario, without a path.
-    identity: String,
+    content: String,
     gains: bool,
 }
 
@@ -109,9 +109,14 @@ impl ScenarioCampaign {
             return Err(document.mistake(&KeyPath::root().key("seeds"), message, None).into());
         }
         let scenario = scenario(document, &spec)?;
-        let identity = identity(&scenario)?;
+        if spec.gains && runs(&scenario)? < 2 {
+            let message =
+                "one run, two or more were expected: the last one takes no part in the diagnosis";
+            return Err(document.mistake(&KeyPath::root().key("gains"), message, None).into());
+        }
+        let content = content(&scenario)?;
         let (seeds, seed, gains) = (spec.seeds, spec.seed, spec.gains);
-        Ok(Self { kinds, seeds, seed, scenario, identity, gains })
+        Ok(Self { kinds, seeds, seed, scenario, content, gains })
     }
 
     /// The campaign as one text, beside a scenario file of this name.
@@ -144,10 +149,10 @@ impl ScenarioCampaign {
         self.kinds.len() * self.seeds
     }
 
-    /// Identity of the campaign: SHA-256 of everything that its scores depend on, except for this program. Files
-    /// count by their content, independent of their paths.
-    pub fn hash(&self) -> String {
-        hexadecimal(&[IDENTITY, &self.self_contained_text(""), "\n", &self.identity].concat())
+    /// Everything that its scores depend on, except for this program, as a text. Files count by their content,
+    /// independent of their paths.
+    pub(super) fn identity(&self) -> String {
+        [IDENTITY, &self.self_contained_text(""), "\n", &self.content].concat()
     }
 
     /// The kind and the seed of a task, from 0 to [`trials`](Self::trials) - 1.
@@ -198,7 +203,7 @@ fn drawn_kinds(spec: &CampaignSpec) -> impl Iterator<Item = EffectKind> {
 }
 
 /// A resolved scenario in which the contents of its robot and recorded files replace their paths.
-fn identity(scenario: &str) -> Result<String, BenchmarkError> {
+fn content(scenario: &str) -> Result<String, BenchmarkError> {
     let mut spec: ScenarioSpec = Document::from_text("scenario", scenario)?.parse()?;
     let content = Robot::load(&spec.robot)?.content()?;
     spec.robot = PathBuf::new();
@@ -207,6 +212,12 @@ fn identity(scenario: &str) -> Result<String, BenchmarkError> {
     }
     // What has come from TOML can be written as TOML.
     Ok(toml::to_string(&spec).unwrap_or_default() + &content)
+}
+
+/// Number of runs of a resolved scenario.
+fn runs(scenario: &str) -> Result<usize, BenchmarkError> {
+    let spec: ScenarioSpec = Document::from_text("scenario", scenario)?.parse()?;
+    Ok(spec.run.len())
 }
 
 /// Hash of a file, or of the files of a bag in the order of their names.
@@ -248,8 +259,8 @@ mod tests {
 
     fn campaign(kinds: &[&str], seeds: usize, seed: u64) -> ScenarioCampaign {
         let kinds = kinds.iter().map(|kind| kind.parse().unwrap()).collect();
-        let (scenario, identity) = (String::new(), String::new());
-        ScenarioCampaign { kinds, seeds, seed, scenario, identity, gains: false }
+        let (scenario, content) = (String::new(), String::new());
+        ScenarioCampaign { kinds, seeds, seed, scenario, content, gains: false }
     }
 
     /// The digests are those of `printf '%s' 7/backlash/1 | sha256sum`.
@@ -276,16 +287,15 @@ mod tests {
     #[test]
     fn whatever_a_score_follows_from_makes_another_campaign() {
         let usual = campaign(&["clean", "backlash"], 2, 7);
-        let identity = "robot = 'arm.toml'".to_owned();
+        let content = "robot = 'arm.toml'".to_owned();
         let others = [
             campaign(&["backlash", "clean"], 2, 7),
             campaign(&["clean", "backlash"], 3, 7),
             campaign(&["clean", "backlash"], 2, 8),
-            ScenarioCampaign { identity, ..usual.clone() },
+            ScenarioCampaign { content, ..usual.clone() },
             ScenarioCampaign { gains: true, ..usual.clone() },
         ];
-        assert!(others.iter().all(|other| other.hash() != usual.hash()));
-        assert_eq!(campaign(&["clean", "TR01"], 2, 7).hash(), usual.hash());
-        assert_eq!(usual.hash().len(), 64);
+        assert!(others.iter().all(|other| other.identity() != usual.identity()));
+        assert_eq!(campaign(&["clean", "TR01"], 2, 7).identity(), usual.identity());
     }
 }

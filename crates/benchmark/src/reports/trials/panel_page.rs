@@ -18,9 +18,13 @@ struct Page<'a> {
     names: String,
     verdicts: String,
     predictions: String,
-    baselines: String,
+    costs: String,
+    by_hand: String,
+    answers: String,
     kinds: String,
+    sizes: String,
     strangers: String,
+    spoilings: String,
     slowest: String,
     counts: String,
     failures: &'a [Failure],
@@ -28,8 +32,8 @@ struct Page<'a> {
     json: String,
 }
 
-/// `report.html` of trials of a population in one file that opens offline and without scripts. It shows, corner by
-/// corner and beside two baselines, how well causes are named, the false assurances, and the predictions with the
+/// `report.html` of a campaign in one file that opens offline and without scripts. It shows, corner by
+/// corner and beside plain least squares, how well causes are named, the false assurances, and the predictions with the
 /// findings.
 ///
 /// `doubts` are sentences about what is missing.
@@ -44,8 +48,19 @@ pub fn panel_page(
 ) -> Result<String, ReportError> {
     let json = serde_json::to_string_pretty(merged)
         .map_err(|e| ReportError::Format { format: "JSON", reason: e.to_string() })?;
-    let [names, verdicts, predictions, baselines, kinds, strangers, slowest] =
-        merged.tally.tables();
+    let [
+        names,
+        verdicts,
+        predictions,
+        costs,
+        by_hand,
+        answers,
+        kinds,
+        sizes,
+        strangers,
+        spoilings,
+        slowest,
+    ] = merged.tally.tables();
     render_page(&Page {
         campaign: merged.campaign.get(..8).unwrap_or(&merged.campaign),
         sentence: sentence(merged),
@@ -55,9 +70,13 @@ pub fn panel_page(
         names: table(names)?,
         verdicts: table(verdicts)?,
         predictions: table(predictions)?,
-        baselines: table(baselines)?,
+        costs: table(costs)?,
+        by_hand: table(by_hand)?,
+        answers: table(answers)?,
         kinds: table(kinds)?,
+        sizes: table(sizes)?,
         strangers: table(strangers)?,
+        spoilings: table(spoilings)?,
         slowest: table(slowest)?,
         counts: table(KindCount::table(&merged.counts))?,
         failures: &merged.failures,
