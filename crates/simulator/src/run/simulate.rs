@@ -198,7 +198,8 @@ fn follow_run(
 ) -> Result<Vec<ControlRow>, SimulatorError> {
     let robot = scenario.robot();
     let mut simulator = simulator(robot, causes, sensors, scenario.stepping())?;
-    let following = Following { gains: scenario.gains(), robot, run, longest_s };
+    let servo = scenario.spec().control.servo;
+    let following = Following { gains: scenario.gains(), robot, run, servo, longest_s };
     follow(&mut simulator, &following, on_second)
         .map_err(|fault| SimulatorError::Fault { run: run.name.clone(), fault })
 }
