@@ -87,6 +87,8 @@ pub fn corner() -> Corner {
         logs: 2,
         length_s: 30.0,
         repeats: false,
+        log_kinds: Vec::new(),
+        goal_delay_ms: None,
     }
 }
 
@@ -109,5 +111,5 @@ pub fn sheet(causes: &[(EffectKind, &str, Strength)]) -> TruthSheet {
 }
 
 pub fn stranger(strength: Strength) -> TrueStranger {
-    TrueStranger { name: "soft_wall".to_owned(), joint: None, strength }
+    TrueStranger { name: "soft_wall".to_owned(), joint: None, strength, spoiling: None }
 }

@@ -24,6 +24,8 @@ pub fn short(class: ArmClass, causes: [usize; 2]) -> PopulationSpec {
         strangers: 0.5,
         clean: 0.0,
         spoilt: 0.0,
+        log_kinds: BTreeMap::new(),
+        servos: None,
         recorded: None,
     }
 }

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may stop at the first surprise")]
 
 mod bench;
+mod log_kinds;
 mod made;
 mod recorded;
 mod spec;
