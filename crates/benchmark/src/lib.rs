@@ -11,10 +11,12 @@
 //!
 //! - `panel` judges one trial of a population by its truth, `trials` plans and makes campaigns;
 //! - `tables` adds trials up, `paired` compares two results of the same trials;
+//! - `damage` spoils the logs of a trial more and more;
 //! - `baselines` are two simple methods, `statistics` shares and rates with their intervals;
 //! - `paper` measures the figures of Nguyen-Tuong & Peters 2010, `reports` shows all of it.
 
 mod baselines;
+mod damage;
 mod error;
 mod paired;
 mod panel;
@@ -28,6 +30,10 @@ mod trials;
 pub use baselines::baseline::Baseline;
 pub use baselines::least_squares::least_squares;
 pub use baselines::two_questions::two_questions;
+pub use damage::curves::{
+    DAMAGE_SCHEMA, DAMAGE_SIZES, DamageCurves, DamagePoint, DamageTrial, damage_kinds,
+};
+pub use damage::outcome::DamageOutcome;
 pub use error::BenchmarkError;
 pub use paired::comparison::PairedComparison;
 pub use paired::measures::{Measure, TrialQuantity};
