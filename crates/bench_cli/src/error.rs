@@ -34,6 +34,7 @@ impl BenchError {
                 BenchmarkError::OtherCampaign { .. }
                 | BenchmarkError::NoThreads { .. }
                 | BenchmarkError::NoStore { .. }
+                | BenchmarkError::NoPopulation { .. }
                 | BenchmarkError::TrialFolder { .. }
                 | BenchmarkError::Population(_) => 2,
                 _ => 3,

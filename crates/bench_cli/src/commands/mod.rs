@@ -1,6 +1,7 @@
 //! The commands, one file or folder each.
 
 pub mod compare;
+pub mod damage;
 pub mod figure;
 pub mod merge;
 pub mod missing;
