@@ -94,6 +94,8 @@ pub fn corner() -> Corner {
         length_s: 30.0,
         repeats: false,
         field: Vec::new(),
+        log_kinds: Vec::new(),
+        goal_delay_ms: None,
     }
 }
 
@@ -116,5 +118,5 @@ pub fn sheet(causes: &[(EffectKind, &str, Strength)]) -> TruthSheet {
 }
 
 pub fn stranger(strength: Strength) -> TrueStranger {
-    TrueStranger { name: "soft_wall".to_owned(), joint: None, strength }
+    TrueStranger { name: "soft_wall".to_owned(), joint: None, strength, spoiling: None }
 }

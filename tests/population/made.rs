@@ -26,6 +26,8 @@ pub fn short(class: ArmClass, causes: [usize; 2]) -> PopulationSpec {
         spoilt: 0.0,
         robots: RobotShares::default(),
         instruments: None,
+        log_kinds: BTreeMap::new(),
+        servos: None,
         recorded: None,
     }
 }

@@ -4,6 +4,7 @@
 mod bench;
 mod field;
 mod instruments;
+mod log_kinds;
 mod made;
 mod recorded;
 mod spec;

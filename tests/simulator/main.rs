@@ -34,6 +34,7 @@ mod scenario;
 mod sealed;
 mod sensor_keys;
 mod sensors;
+mod servo;
 mod stranger_drive;
 mod stranger_motion;
 mod stranger_structure;

@@ -3,7 +3,7 @@ use clap::{Parser, Subcommand};
 use crate::commands::missing::Folder;
 use crate::commands::submit::submission;
 use crate::commands::times::measure;
-use crate::commands::{account, compare, figure, plan, schema, work};
+use crate::commands::{account, compare, damage, figure, plan, schema, work};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -82,6 +82,9 @@ pub enum BenchCommand {
     Account(account::Arguments),
     /// Compares two results of the same trials, trial by trial: wins, losses and which trials turned
     Compare(compare::Arguments),
+    /// Spoils the logs of a few trials more and more, kind by kind, and says what the answers become: a new name
+    /// with nothing left open is the fault, and ends with code 1
+    Damage(damage::Arguments),
     /// Draws a figure of the paper and says of every claim about it whether it holds
     #[command(after_help = FIGURE_EXAMPLES)]
     Figure(figure::arguments::Arguments),

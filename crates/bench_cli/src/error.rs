@@ -35,6 +35,7 @@ impl BenchError {
                 | BenchmarkError::NoThreads { .. }
                 | BenchmarkError::NoStore { .. }
                 | BenchmarkError::NoTruthSheets { .. }
+                | BenchmarkError::NoPopulation { .. }
                 | BenchmarkError::TrialFolder { .. }
                 | BenchmarkError::Population(_) => 2,
                 _ => 3,

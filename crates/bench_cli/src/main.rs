@@ -15,7 +15,7 @@ use crate::arguments::{Arguments, BenchCommand};
 use crate::commands::figure::draw;
 use crate::commands::submit::submission;
 use crate::commands::times::measure;
-use crate::commands::{account, compare, merge, plan, schema, status, work};
+use crate::commands::{account, compare, damage, merge, plan, schema, status, work};
 use crate::error::BenchError;
 use crate::exit_status::BenchExitStatus;
 
@@ -42,6 +42,7 @@ fn run(arguments: &Arguments) -> Result<BenchExitStatus, BenchError> {
         BenchCommand::Merge(arguments) => merge::run(arguments),
         BenchCommand::Account(arguments) => account::run(arguments),
         BenchCommand::Compare(arguments) => compare::run(arguments),
+        BenchCommand::Damage(arguments) => damage::run(arguments),
         BenchCommand::Figure(arguments) => draw::run(arguments),
         BenchCommand::Times(arguments) => measure::run(arguments),
         BenchCommand::Schema(arguments) => schema::run(arguments),

@@ -55,6 +55,12 @@ pub enum BenchmarkError {
         /// Hash of the campaign that was to be planned.
         planned: String,
     },
+    /// A campaign has no population.
+    #[error("{}: the campaign of a scenario was found, one of a population was expected", path.display())]
+    NoPopulation {
+        /// The campaign.
+        path: PathBuf,
+    },
     /// A table cannot be read as one of trials.
     #[error("{}: {reason}, trials.parquet of a campaign was expected", path.display())]
     UnreadableTrials {

@@ -13,12 +13,14 @@
 //! - `account` says at which stage every missed cause and every false finding of a campaign is lost;
 //! - `tables` adds trials up, `paired` compares two results of the same trials;
 //! - `alarms` is what was said of clean logs, corner by corner;
+//! - `damage` spoils the logs of a trial more and more;
 //! - `baselines` is plain least squares, `statistics` shares and rates with their intervals;
 //! - `paper` measures the figures of Nguyen-Tuong & Peters 2010, `reports` shows all of it.
 
 mod account;
 mod alarms;
 mod baselines;
+mod damage;
 mod error;
 mod paired;
 mod panel;
@@ -41,6 +43,10 @@ pub use alarms::alarm_row::AlarmRow;
 pub use alarms::false_name::FalseName;
 pub use baselines::baseline::Baseline;
 pub use baselines::least_squares::least_squares;
+pub use damage::curves::{
+    DAMAGE_SCHEMA, DAMAGE_SIZES, DamageCurves, DamagePoint, DamageTrial, damage_kinds,
+};
+pub use damage::outcome::DamageOutcome;
 pub use error::BenchmarkError;
 pub use paired::comparison::PairedComparison;
 pub use paired::measures::{Measure, TrialQuantity};

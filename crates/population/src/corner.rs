@@ -3,6 +3,8 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::log_kind::LogKind;
+
 /// Makes an enum with a name for each variant, used in files and tables.
 macro_rules! named {
     ($(#[$meta:meta])* $type:ident { $($(#[$meaning:meta])* $variant:ident = $name:literal,)* }) => {
@@ -153,4 +155,10 @@ pub struct Corner {
     /// What it has of robots in use, in the order of the list.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub field: Vec<FieldFeature>,
+    /// In what its logs differ from usual ones.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub log_kinds: Vec<LogKind>,
+    /// By how much the goals of servos come late (ms); `None` where a controller follows the motion.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub goal_delay_ms: Option<f64>,
 }

@@ -5,6 +5,7 @@ use simulator::Truth;
 
 use crate::corner::Corner;
 use crate::error::PopulationError;
+use crate::log_kind::LogKind;
 use crate::text_file::write_text;
 
 /// The truth about a trial, `sheet.json`, kept apart until its logs are diagnosed.
@@ -72,6 +73,23 @@ pub struct TrueStranger {
     pub joint: Option<String>,
     /// How visible it is to an oracle.
     pub strength: Strength,
+    /// Of what kind it is, where it is not in the arm but in its logs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spoiling: Option<LogSpoiling>,
+}
+
+/// What spoils the logs of a trial.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LogSpoiling {
+    /// Its kind.
+    pub kind: LogKind,
+    /// The joints whose signals or description it is in.
+    pub joints: Vec<String>,
+    /// Its size, as [`LogKind`] says; `None` for the usual one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size: Option<f64>,
+    /// Whether a program could read the logs rightly all the same: [`LogKind::is_readable`].
+    pub readable: bool,
 }
 
 /// Visibility of a cause to an oracle that knows the true model, the motion and the sensors.

@@ -1,3 +1,4 @@
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use document::{Document, DocumentError, KeyPath};
@@ -5,8 +6,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::corner::{ArmClass, MotionClass, Origin};
-use crate::robot_shares::RobotShares;
 use crate::instruments::Instruments;
+use crate::log_kind::LogKind;
+use crate::robot_shares::RobotShares;
 
 /// Version of the draws, the simulator and the oracle, from which logs and sheets follow beside a
 /// [`PopulationSpec`].
@@ -65,9 +67,38 @@ pub struct PopulationSpec {
     /// What logs are read with, in place of what arms of a class have: a ledger of false alarms crosses them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub instruments: Option<Instruments>,
+    /// In what logs differ from usual ones, kind by kind.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub log_kinds: BTreeMap<LogKind, LogKindSpec>,
+    /// Hobby arms whose servos follow goals and log no effort; none where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub servos: Option<ServoShareSpec>,
     /// Recorded logs, where they are present.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recorded: Option<RecordedSpec>,
+}
+
+/// How often logs are of a kind, and its size.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LogKindSpec {
+    /// Share of trials, 0 to 1. Of kinds that spoil logs a trial has one at most, the first of those drawn, and a
+    /// clean one none; zeros, signs and units of efforts are not drawn for servos, which log none.
+    pub share: f64,
+    /// Its size; drawn where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size: Option<f64>,
+}
+
+/// How often an arm has servos that log goals and positions alone, and how late its goals come.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ServoShareSpec {
+    /// Share of trials, 0 to 1.
+    pub share: f64,
+    /// Least and largest time by which goals come late (ms), 0 to 200; a quarter of the arms has the least.
+    #[serde(default = "up_to_60")]
+    pub delay_ms: [f64; 2],
 }
 
 /// Recorded logs as trials.
@@ -118,6 +149,26 @@ impl PopulationSpec {
             robots.number(name, share, [0.0, 1.0])?;
         }
         spec.instruments.iter().try_for_each(|all| all.check(document, key))?;
+        for (kind, log) in &spec.log_kinds {
+            let of = |name: &str| format!("log_kinds.{kind}.{name}");
+            check.number(&of("share"), log.share, [0.0, 1.0])?;
+            match (log.size, kind.sizes()) {
+                (Some(size), Some(sizes)) => check.number(&of("size"), size, sizes)?,
+                (Some(size), None) => {
+                    let found = format!("{size}, no size was expected of {kind}");
+                    return Err(check.mistake(&of("size"), found));
+                }
+                (None, _) => {}
+            }
+        }
+        if let Some(servos) = spec.servos {
+            check.number("servos.share", servos.share, [0.0, 1.0])?;
+            check.range("servos.delay_ms", servos.delay_ms, [0.0, 200.0])?;
+            if servos.share > 0.0 && !spec.arms.contains(&ArmClass::Hobby) {
+                let found = "servos of hobby arms, hobby among the arms was expected".to_owned();
+                return Err(check.mistake("servos.share", found));
+            }
+        }
         if let Some(recorded) = &mut spec.recorded {
             let path = key.clone().key("recorded").key("data");
             let folder = document.directory_of(&path).join(&recorded.data);
@@ -165,7 +216,8 @@ struct Check<'a> {
 
 impl Check<'_> {
     fn mistake(&self, name: &str, found: String) -> DocumentError {
-        self.document.mistake(&self.key.clone().key(name), found, None)
+        let key = name.split('.').fold(self.key.clone(), |key, part| key.key(part));
+        self.document.mistake(&key, found, None)
     }
 
     fn number(&self, name: &str, value: f64, [low, high]: [f64; 2]) -> Result<(), DocumentError> {
@@ -229,4 +281,8 @@ fn one_in_five() -> f64 {
 
 fn one_in_ten() -> f64 {
     0.1
+}
+
+fn up_to_60() -> [f64; 2] {
+    [0.0, 60.0]
 }

@@ -2,6 +2,7 @@
 
 pub mod account;
 pub mod compare;
+pub mod damage;
 pub mod figure;
 pub mod merge;
 pub mod missing;

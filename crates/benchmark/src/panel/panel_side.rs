@@ -1,13 +1,16 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use population::{ArmClass, EffortClass, FieldFeature, MotionClass, Origin};
+use population::{ArmClass, Corner, EffortClass, FieldFeature, LogKind, MotionClass, Origin};
 use serde::{Serialize, Serializer};
 
 use crate::panel::judgement::Judgement;
 
 /// Step of a position reading above which an encoder is coarse (rad or m).
 const COARSE: f64 = 0.0005;
+
+/// Largest lateness of a servo's goals that counts as none (ms): half a row at 100 Hz.
+const PUNCTUAL_MS: f64 = 5.0;
 
 /// Trials of a population that have one property in common.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -55,6 +58,8 @@ impl PanelSide {
             ("visible causes", causes),
             ("logs", logs),
             ("runs", (repeats, ["differ", "repeat"][repeats].to_owned())),
+            ("log", log(corner)),
+            ("goals", goals(corner)),
         ];
         let met = names(FieldFeature::ALL, FieldFeature::name);
         let met = corner.field.iter().map(|feature| ("met with", place(feature.name(), &met)));
@@ -62,6 +67,27 @@ impl PanelSide {
         let side = |(thing, (name, (rank, kind)))| Self { order: [thing, rank], thing: name, kind };
         things.into_iter().enumerate().chain(met).map(side).collect()
     }
+}
+
+/// The first kind in which the logs differ from usual ones.
+fn log(corner: &Corner) -> (usize, String) {
+    let kinds: Vec<&str> = LogKind::ALL.iter().map(|kind| kind.name()).collect();
+    match corner.log_kinds.first() {
+        None => (0, "usual".to_owned()),
+        Some(kind) => {
+            let (rank, name) = place(kind.name(), &kinds);
+            (1 + rank, name)
+        }
+    }
+}
+
+/// Whether a controller follows the motion, or servos their goals, and how late.
+fn goals(corner: &Corner) -> (usize, String) {
+    let rank = match corner.goal_delay_ms {
+        None => 0,
+        Some(delay_ms) => 1 + usize::from(delay_ms > PUNCTUAL_MS),
+    };
+    (rank, ["of a controller", "of servos", "of servos, late"][rank].to_owned())
 }
 
 /// Lower ends of the classes.

@@ -3,7 +3,7 @@ use std::fmt::Write as _;
 use sha2::{Digest, Sha256};
 
 /// Seed of a trial: the first 63 bits of a hash, which fit into an integer of TOML.
-pub(super) fn seed_of(seed: u64, kind: &str, number: usize) -> u64 {
+pub(crate) fn seed_of(seed: u64, kind: &str, number: usize) -> u64 {
     let digest = Sha256::digest(format!("{seed}/{kind}/{number}"));
     digest.iter().take(8).fold(0, |bits, byte| bits << 8 | u64::from(*byte)) >> 1
 }

@@ -68,7 +68,12 @@ impl Transplant {
         let at = |effect, parameters: &[(&str, f64)]| Truth::at_joint(effect, here, parameters);
         let stranger = |name: &str| {
             let joint = Some(here.to_owned());
-            AddedCause::Stranger(TrueStranger { name: name.to_owned(), joint, strength })
+            AddedCause::Stranger(TrueStranger {
+                name: name.to_owned(),
+                joint,
+                strength,
+                spoiling: None,
+            })
         };
         let truth = match self.law {
             AddedLaw::Coulomb { level } => at(EffectKind::CoulombFriction, &[("level", level)]),

@@ -122,6 +122,8 @@ fn plain_trial(arm: &RecordedArm, robot: &Robot, steps: &[f64], split: Split) ->
         length_s: length,
         repeats: paths.len() > 1 && paths.windows(2).all(|pair| pair[0] == pair[1]),
         field: Vec::new(),
+        log_kinds: Vec::new(),
+        goal_delay_ms: None,
     };
     let sheet = TruthSheet {
         seed: 0,

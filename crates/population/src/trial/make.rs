@@ -15,7 +15,7 @@ use crate::corner::{Corner, Origin};
 use crate::error::PopulationError;
 use crate::oracle::noise::{OracleNoise, ReadingError};
 use crate::robot_files::RobotFiles;
-use crate::sheet::{Knowledge, TruthSheet};
+use crate::sheet::{Knowledge, TrueStranger, TruthSheet};
 use crate::spec::PopulationSpec;
 use crate::text_file::write_text;
 use crate::trial::background::{Friction, effects, everyday};
@@ -23,9 +23,11 @@ use crate::trial::differences::{Drives, differences};
 use crate::trial::field::faults::FieldFaults;
 use crate::trial::hidden::HiddenThings;
 use crate::trial::known::{NominalKnowledge, describe};
+use crate::trial::log_draw::LogDraw;
 use crate::trial::pilot::Pilot;
 use crate::trial::seen::{OracleRuns, inertias};
-use crate::trial::spoilt::Spoilt;
+use crate::trial::servo::without_efforts;
+use crate::trial::spoilt::log_damage::LogDamage;
 use crate::trial::step::{step_ms, whole_step_ms};
 
 /// Longest simulation step for sizing causes (ms).
@@ -88,20 +90,27 @@ fn make_once(
     random: &mut ChaCha8Rng,
 ) -> Result<TruthSheet, PopulationError> {
     let clean = random.random_bool(spec.clean);
-    let mut bench = draw_bench(&wishes(spec, random), random)?;
+    let log = LogDraw::new(spec, seed);
+    let mut bench = draw_bench(&log.wishes(wishes(spec, random)), random)?;
+    log.prepare(&mut bench)?;
     let model = if clean { Model::Right } else { Model::AsModelsAre };
     let shares = if clean { spec.robots.without_errors() } else { spec.robots };
     let faults = FieldFaults::draw(&shares, &mut bench, random)?;
-    let draft = Draft::new((bench, faults), model, folder, seed, random)?;
+    let draft = Draft::new((bench, faults, log), model, folder, seed, random)?;
     let [least, most] = spec.causes;
     let causes = if clean { 0 } else { random.random_range(least..=most) };
     let strangers = usize::from(!clean && random.random_bool(spec.strangers));
     let mut hidden = draft.hide(causes, strangers, random)?;
     draft.faults.hide(&mut hidden);
+    if !clean {
+        draft.log.add_causes(&draft.truth.robot, &mut hidden);
+    }
     let step = draft.step_ms(&hidden)?;
     let spoilt = !clean && random.random_bool(spec.spoilt);
-    let spoilt = spoilt.then(|| Spoilt::draw(&draft.truth.robot, random));
-    draft.log(step, &hidden, spoilt, folder)
+    let spoilt = spoilt.then(|| LogDamage::draw(&draft.truth.robot, random));
+    let runs = (&draft.truth.robot, draft.bench.runs.len());
+    let damage = draft.log.damage(runs, clean, spoilt);
+    draft.make_logs(step, &hidden, damage, folder)
 }
 
 /// Refuses runs in which an arm left its range: it ran away or fell, and such logs are not kept.
@@ -147,17 +156,19 @@ enum Model {
 struct Draft {
     bench: LabBench,
     faults: FieldFaults,
+    log: LogDraw,
     seed: u64,
     truth: Loaded,
     truth_file: PathBuf,
     nominal: Loaded,
+    nominal_files: RobotFiles,
     friction: Vec<Friction>,
     noise: Vec<OracleNoise>,
 }
 
 impl Draft {
     fn new(
-        (bench, faults): (LabBench, FieldFaults),
+        (bench, faults, log): (LabBench, FieldFaults, LogDraw),
         model: Model,
         folder: &Path,
         seed: u64,
@@ -186,10 +197,21 @@ impl Draft {
             Model::AsModelsAre => &bench.nominal,
         };
         let (loaded, _) = in_folder("nominal", files)?;
-        let files = describe(files, &loaded, &friction, known, random)?;
-        let (nominal, _) = in_folder("nominal", &files)?;
+        let nominal_files = describe(files, &loaded, &friction, known, random)?;
+        let (nominal, _) = in_folder("nominal", &nominal_files)?;
         let noise = noise(&bench, &truth.robot);
-        Ok(Self { bench, faults, seed, truth, truth_file, nominal, friction, noise })
+        Ok(Self {
+            bench,
+            faults,
+            log,
+            seed,
+            truth,
+            truth_file,
+            nominal,
+            nominal_files,
+            friction,
+            noise,
+        })
     }
 
     fn friction(&self) -> Vec<EffectSpec> {
@@ -217,7 +239,7 @@ impl Draft {
             seed: self.seed >> 1,
             engine: EngineSpec { step_ms, joint_stops: false },
             control: self.bench.control.clone(),
-            sensors: self.bench.sensors.clone(),
+            sensors: self.log.sensors(&self.bench.sensors),
             effect: [self.friction(), hidden.causes.clone()].concat(),
             stranger: hidden.strangers.clone(),
             hidden: None,
@@ -276,11 +298,11 @@ impl Draft {
     }
 
     /// Simulates the runs and writes all files.
-    fn log(
+    fn make_logs(
         &self,
         step: f64,
         hidden: &HiddenThings,
-        spoilt: Option<Spoilt>,
+        damage: Option<LogDamage>,
         folder: &Path,
     ) -> Result<TruthSheet, PopulationError> {
         let scenario = self.scenario(step, hidden)?;
@@ -301,28 +323,65 @@ impl Draft {
         differ.extend(self.faults.differences(models[0], models[1], &seen.runs));
         let (causes, mut strangers) = seen.strengths(&self.truth.robot, differ, &self.noise);
         let scales = seen.scales(&self.truth.robot, &self.noise);
-        if let Some(spoilt) = spoilt {
+        if damage.is_some() || self.log.servo.is_some() {
             let clean = silent(&scenario, &|name| name != HELD_OUT)?;
-            strangers.push(spoilt.true_stranger(&self.truth.robot, &clean, &scales));
-            spoilt.spoil(&self.truth.robot, &mut noisy.runs);
+            strangers.extend(self.true_strangers(&clean, &scales, damage.as_ref()));
         }
         strangers.extend(self.faults.strangers(&self.truth.robot, &seen.runs, &scales));
         self.faults.spoil(&mut noisy.runs);
+        let corner = self.corner(&noisy.runs, damage.as_ref());
+        let logs = self.change_logs([noisy.runs, held_out], damage.as_ref(), folder)?;
         let joints = self.truth.robot.joint_names().map(str::to_owned).collect();
         let sheet = TruthSheet {
             seed: self.seed,
-            corner: self.corner(&noisy.runs),
+            corner,
             knowledge: Knowledge::Whole,
             joints,
             torque_rms: scales,
             causes,
             strangers,
         };
-        write_runs(&folder.join("logs"), &noisy.runs)?;
-        write_runs(&folder.join("held_out"), &held_out)?;
+        for (name, runs) in ["logs", HELD_OUT].iter().zip(&logs) {
+            write_runs(&folder.join(name), runs)?;
+        }
         write_text(&folder.join("truth").join("scenario.toml"), &self.portable(&scenario))?;
         sheet.write(folder)?;
         Ok(sheet)
+    }
+
+    /// What is strange about the logs; `clean` are those without noise.
+    fn true_strangers(
+        &self,
+        clean: &[Run],
+        scales: &[f64],
+        damage: Option<&LogDamage>,
+    ) -> Vec<TrueStranger> {
+        let known = (&self.noise[..], scales);
+        let late = self.log.servo.map(|servo| servo.late_goals(&self.truth, clean, known));
+        let spoilt = damage.map(|d| d.true_stranger(&self.truth.robot, clean, scales));
+        late.into_iter().chain(spoilt).collect()
+    }
+
+    /// The logs and the held-out log as they are written: spoilt, as their description may be, and with their rows.
+    fn change_logs(
+        &self,
+        [mut runs, mut held_out]: [Vec<Run>; 2],
+        damage: Option<&LogDamage>,
+        folder: &Path,
+    ) -> Result<[Vec<Run>; 2], PopulationError> {
+        let robot = &self.truth.robot;
+        if let Some(damage) = damage {
+            damage.spoil(robot, &mut runs);
+            if let Some(files) = damage.describe(&self.nominal_files, &self.nominal, &runs)? {
+                files.write(&folder.join("nominal"))?;
+            }
+        }
+        if let Some(repetition) = self.log.repetition(robot) {
+            repetition.spoil(robot, &mut runs);
+        }
+        let Some(servo) = &self.log.servo else { return Ok([runs, held_out]) };
+        servo.follow(&mut held_out);
+        Ok([runs, held_out].map(|runs| runs.into_iter().map(without_efforts).collect()))
     }
 
     /// The scenario with a path to the robot beside it, so that the folder can be moved.
@@ -331,9 +390,9 @@ impl Draft {
         scenario.self_contained_text().replace(&file.display().to_string(), "robot.toml")
     }
 
-    fn corner(&self, runs: &[Run]) -> Corner {
+    fn corner(&self, runs: &[Run], damage: Option<&LogDamage>) -> Corner {
         let length = |run: &Run| run.time.last().unwrap_or(&0.0) - run.time.first().unwrap_or(&0.0);
-        let sensors = &self.bench.sensors;
+        let sensors = self.log.sensors(&self.bench.sensors);
         let steps = sensors.position_resolution_rad.values();
         Corner {
             origin: Origin::Simulated,
@@ -347,6 +406,8 @@ impl Draft {
             length_s: runs.iter().map(length).sum(),
             repeats: self.bench.repeats,
             field: self.faults.features.clone(),
+            log_kinds: self.log.kinds(damage),
+            goal_delay_ms: self.log.servo.map(|servo| servo.delay_ms),
         }
     }
 }

@@ -102,6 +102,7 @@ impl OracleRuns {
             name: truth.stranger.name().to_owned(),
             joint: truth.joint.clone(),
             strength,
+            spoiling: None,
         };
         let strangers = self.strangers.iter().zip(strengths).map(unnamed).collect();
         (causes, strangers)

@@ -113,7 +113,8 @@ impl<'a> EffectSizer<'a> {
         let scenario = self.scenario;
         let mut simulator = self.simulator(more)?;
         let (gains, robot) = (scenario.gains(), scenario.robot());
-        let following = Following { gains, robot, run: &self.run, longest_s: MEASURED_S };
+        let servo = scenario.spec().control.servo;
+        let following = Following { gains, robot, run: &self.run, servo, longest_s: MEASURED_S };
         follow(&mut simulator, &following, &|| {})
             .map_err(|fault| SimulatorError::Fault { run: self.run.name.clone(), fault })
     }

@@ -4,7 +4,9 @@ use robot::{Machine, MachineFault, PdGain, Reading, Robot};
 use crate::effects::spec::EffectSpec;
 use crate::error::SimulatorError;
 use crate::mechanics::inject::Inject;
+use crate::run::goals::Goals;
 use crate::scenario::check::ScenarioRun;
+use crate::scenario::spec::ServoSpec;
 use crate::sensors::Sensors;
 use crate::simulator::{Simulator, Stepping};
 use crate::strangers::spec::StrangerSpec;
@@ -17,7 +19,7 @@ pub(crate) struct ArmCauses<'a> {
     pub strangers: &'a [StrangerSpec],
 }
 
-/// One row of a log, with the reference that was followed.
+/// One row of a log, with the reference or goal that was sent.
 #[derive(Debug, Clone)]
 pub(crate) struct ControlRow {
     pub reading: Reading,
@@ -33,6 +35,8 @@ pub(crate) struct Following<'a> {
     pub gains: &'a [PdGain],
     pub robot: &'a Robot,
     pub run: &'a ScenarioRun,
+    /// The servos that follow it; `None` for a controller that knows the velocity of the motion.
+    pub servo: Option<ServoSpec>,
     /// Longest part of the motion that is followed (s).
     pub longest_s: f64,
 }
@@ -64,7 +68,8 @@ pub(crate) fn simulator(
     Simulator::new(robot, all.collect(), sensors, stepping)
 }
 
-/// Follows a motion with `tau = kp (q_ref - q) + kd (qd_ref - qd)`, within the torque limits.
+/// Follows a motion with `tau = kp (q_ref - q) + kd (qd_ref - qd)`, or its goals as a [`ServoSpec`] says, within the
+/// torque limits.
 ///
 /// A motion that starts at rest is held at its start for the lead-in before time zero. Any other
 /// motion starts without a lead-in.
@@ -73,9 +78,10 @@ pub(crate) fn follow(
     following: &Following<'_>,
     on_second: &dyn Fn(),
 ) -> Result<Vec<ControlRow>, MachineFault> {
-    let Following { gains, robot, run, longest_s } = *following;
+    let Following { gains, robot, run, servo, longest_s } = *following;
     let period_s = simulator.period_s();
-    let mut reference = run.motion.at(0.0);
+    let mut goals = Goals::new(&run.motion, servo);
+    let reference = run.motion.at(0.0);
     let at_rest = reference.qd.iter().all(|qd| qd.abs() <= 1e-9);
     let lead_in = if at_rest { (run.lead_in_s / period_s).round() as usize } else { 0 };
     simulator.start_moving(&reference.q, &reference.qd);
@@ -86,18 +92,16 @@ pub(crate) fn follow(
     let mut rows = Vec::with_capacity(count);
     for tick in 0..lead_in + count {
         let time_s = (tick as f64 - lead_in as f64) * period_s;
-        if tick > lead_in {
-            run.motion.sample(time_s, &mut reference);
-        }
+        goals.advance(time_s.max(0.0));
         simulator.read(&mut reading)?;
-        feedback(gains, robot, &reference, &reading, &mut command);
+        feedback(gains, robot, goals.followed(), &reading, &mut command);
         simulator.actuate(&command)?;
         let mut row = Reading::default();
         simulator.record(&reading, &mut row);
         let links = simulator.record_links(&reading);
         if tick >= lead_in {
             row.time_s = time_s;
-            let (command, reference) = (command.clone(), reference.clone());
+            let (command, reference) = (command.clone(), goals.sent().clone());
             rows.push(ControlRow { reading: row, links, command, reference });
             if (time_s + period_s).floor() > time_s.floor() {
                 on_second();

@@ -63,6 +63,7 @@ impl LogClock {
 /// The log of a run: sensor readings, references and commands.
 pub(crate) fn log_of_rows(scenario: &Scenario, run: &ScenarioRun, rows: &[ControlRow]) -> Run {
     let asked_is_effort = scenario.spec().sensors.effort == EffortSource::Commanded;
+    let follows_velocity = scenario.spec().control.servo.is_none();
     let column = |of: &dyn Fn(&ControlRow) -> f64| rows.iter().map(of).collect::<Vec<f64>>();
     let joint = |(i, name): (usize, &str)| Channels {
         name: name.to_owned(),
@@ -71,8 +72,8 @@ pub(crate) fn log_of_rows(scenario: &Scenario, run: &ScenarioRun, rows: &[Contro
         velocity: Some(column(&|r| r.reading.qd[i])),
         acceleration: None,
         desired_position: Some(column(&|r| r.reference.q[i])),
-        desired_velocity: Some(column(&|r| r.reference.qd[i])),
-        desired_acceleration: Some(column(&|r| r.reference.qdd[i])),
+        desired_velocity: follows_velocity.then(|| column(&|r| r.reference.qd[i])),
+        desired_acceleration: follows_velocity.then(|| column(&|r| r.reference.qdd[i])),
         commanded_effort: (!asked_is_effort).then(|| column(&|r| r.command[i])),
         link_position: rows.iter().map(|r| r.links[i]).collect(),
     };

@@ -2,6 +2,7 @@
 
 pub(crate) mod effect_sizer;
 pub(crate) mod follow;
+pub(crate) mod goals;
 pub(crate) mod hidden;
 pub(crate) mod log;
 pub(crate) mod simulate;

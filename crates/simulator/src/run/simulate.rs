@@ -217,7 +217,8 @@ fn follow_run(
     let effects = [causes.effects, run.effects.as_slice()].concat();
     let causes = ArmCauses { effects: &effects, ..causes };
     let mut simulator = simulator(robot, causes, sensors, scenario.stepping())?;
-    let following = Following { gains: scenario.gains(), robot, run, longest_s };
+    let servo = scenario.spec().control.servo;
+    let following = Following { gains: scenario.gains(), robot, run, servo, longest_s };
     follow(&mut simulator, &following, on_second)
         .map_err(|fault| SimulatorError::Fault { run: run.name.clone(), fault })
 }

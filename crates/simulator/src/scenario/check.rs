@@ -57,6 +57,7 @@ impl Scenario {
         let check = Checker { document, spec: &spec, loaded: &loaded };
         let stepping = check.stepping()?;
         let gains = check.gains()?;
+        check.servo()?;
         check.sensors()?;
         check.effects()?;
         check.strangers()?;
@@ -255,6 +256,13 @@ impl Checker<'_> {
             return Err(self.no_gains(name));
         }
         Ok(gains.into_iter().flatten().collect())
+    }
+
+    fn servo(&self) -> Result<(), DocumentError> {
+        let Some(servo) = self.spec.control.servo else { return Ok(()) };
+        let path = KeyPath::root().key("control").key("servo");
+        self.within(&path.key("goal_rate_hz"), servo.goal_rate_hz, 1.0, self.control_rate_hz())?;
+        self.within(&path.key("goal_delay_ms"), servo.goal_delay_ms, 0.0, 1000.0)
     }
 
     /// The error for a joint without gains, shown at the given gains or else at the robot.

@@ -7,4 +7,5 @@ pub(crate) mod spec;
 pub use check::{Scenario, ScenarioRun};
 pub use spec::{
     ControlSpec, DropoutSpec, EngineSpec, HiddenSpec, Logged, RunSpec, ScenarioSpec, SensorSpec,
+    ServoSpec,
 };

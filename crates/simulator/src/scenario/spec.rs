@@ -76,6 +76,27 @@ pub struct ControlSpec {
     /// Gains of joints that differ from the set (N m s/rad).
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub kd_nm_s_per_rad: BTreeMap<String, f64>,
+    /// The joints are servos that follow goals.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub servo: Option<ServoSpec>,
+}
+
+/// Servos: a goal is sent at a rate, held until the next one, and reaches the position loop late.
+///
+/// ```text
+/// goal(t) = q_ref(floor(t rate) / rate)
+/// tau     = kp (goal(t - delay) - q) - kd qd
+/// ```
+///
+/// The log has `goal(t)` as the desired position, and no desired velocity or acceleration.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ServoSpec {
+    /// Rate at which goals are sent (Hz), 1 to that of the controller.
+    pub goal_rate_hz: f64,
+    /// Time from a goal's row in the log to the position loop (ms), 0 to 1000.
+    #[serde(default)]
+    pub goal_delay_ms: f64,
 }
 
 /// What the log sees.

@@ -1,0 +1,107 @@
+use std::fmt;
+
+use serde::Serialize;
+
+use crate::damage::answer::{DamageAnswer, NamedSizes};
+
+/// What damage has made of an answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DamageOutcome {
+    /// The same verdict and names, and sizes whose intervals meet.
+    Right,
+    /// The damage is told, at the place where it is.
+    Told,
+    /// Something is left open, or the logs are refused for another reason.
+    Open,
+    /// Nothing is left open and no name is new, but one is missing or has another size.
+    Changed,
+    /// Nothing is left open, and a name is new: the fault.
+    Wrong,
+}
+
+impl DamageOutcome {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Right, Self::Told, Self::Open, Self::Changed, Self::Wrong];
+
+    /// The outcome of an answer to spoilt logs, beside that to the same logs before; `is_told` says whether it tells the
+    /// damage.
+    pub(crate) fn new(before: &DamageAnswer, after: &DamageAnswer, is_told: bool) -> Self {
+        let is_new = |name: &NamedSizes| !before.names.iter().any(|known| known.covers(name));
+        let is_kept = |name: &NamedSizes| {
+            after.names.iter().any(|found| name.covers(found) && name.agrees(found))
+        };
+        let any_new = after.names.iter().any(is_new);
+        let same = !any_new && before.names.iter().all(is_kept);
+        match (same && before.verdict == after.verdict, is_told, after.is_closed(), any_new) {
+            (true, ..) => Self::Right,
+            (false, true, ..) => Self::Told,
+            (false, false, false, _) => Self::Open,
+            (false, false, true, false) => Self::Changed,
+            (false, false, true, true) => Self::Wrong,
+        }
+    }
+
+    /// Its name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Right => "right",
+            Self::Told => "told",
+            Self::Open => "open",
+            Self::Changed => "changed",
+            Self::Wrong => "wrong",
+        }
+    }
+}
+
+impl fmt::Display for DamageOutcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use catalogue::EffectKind;
+    use diagnosis::{EffectAt, Verdict};
+
+    use super::*;
+
+    fn name(joint: &str, size: [f64; 2]) -> NamedSizes {
+        let at = EffectAt {
+            effect: EffectKind::CoulombFriction,
+            joint: Some(joint.to_owned()),
+            link: None,
+        };
+        NamedSizes { at, rivals: Vec::new(), sizes: vec![("level", size)] }
+    }
+
+    fn answer(verdict: Verdict, names: &[NamedSizes]) -> DamageAnswer {
+        DamageAnswer { verdict, names: names.to_vec(), said: Vec::new() }
+    }
+
+    #[test]
+    fn a_new_name_is_wrong_where_nothing_is_left_open_and_nothing_told() {
+        let explained = |names: &[NamedSizes]| answer(Verdict::Explained, names);
+        let before = explained(&[name("elbow", [0.9, 1.1])]);
+        let of = |after: &DamageAnswer, told| DamageOutcome::new(&before, after, told);
+        assert_eq!(of(&before, true), DamageOutcome::Right);
+        assert_eq!(of(&explained(&[name("elbow", [1.0, 1.3])]), false), DamageOutcome::Right);
+        assert_eq!(of(&explained(&[name("elbow", [1.2, 1.3])]), false), DamageOutcome::Changed);
+        assert_eq!(of(&explained(&[]), false), DamageOutcome::Changed);
+        let both = [name("elbow", [0.9, 1.1]), name("wrist", [0.1, 0.2])];
+        assert_eq!(of(&explained(&both), false), DamageOutcome::Wrong);
+        assert_eq!(of(&explained(&both), true), DamageOutcome::Told);
+        assert_eq!(of(&answer(Verdict::PartlyExplained, &both), false), DamageOutcome::Open);
+        assert_eq!(of(&answer(Verdict::DataInadequate, &[]), false), DamageOutcome::Open);
+    }
+
+    #[test]
+    fn a_rival_of_a_name_is_no_new_one() {
+        let mut first = name("elbow", [0.9, 1.1]);
+        first.rivals.push(name("wrist", [0.0, 0.0]).at);
+        let before = answer(Verdict::Explained, &[first]);
+        let after = answer(Verdict::Explained, &[name("wrist", [0.95, 1.0])]);
+        assert_eq!(DamageOutcome::new(&before, &after, false), DamageOutcome::Right);
+    }
+}
