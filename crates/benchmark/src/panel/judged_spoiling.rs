@@ -4,16 +4,16 @@ use diagnosis::{Diagnosis, Verdict};
 use population::TrueStranger;
 use serde::{Deserialize, Serialize};
 
-/// Start of the names of strangers that are in the logs instead of the arm.
-const SPOILING: &str = "log: ";
+/// Starts of the names of strangers that are in the logs, or in how the model reads them, instead of the arm.
+const SPOILINGS: [&str; 2] = ["log: ", "model: "];
 
 /// End of the sentence of a correction that a diagnosis applies.
 const READ_SO: &str = "Until then the logs are read so.";
 
 /// What a spoiling is called on a sheet, and phrases with which the program names it.
 const NAMED_BY: [(&[&str], &[&str]); 14] = [
-    (&["effort sign", "position sign"], &["other sign"]),
-    (&["efforts exchanged"], &["exchanged"]),
+    (&["effort sign", "position sign", "axis turned"], &["other sign"]),
+    (&["efforts exchanged", "columns exchanged", "joints exchanged"], &["exchanged"]),
     (&["effort in mN m", "effort in amperes"], &["in another unit", ".effort, row"]),
     (&["effort without gravity"], &["torque of gravity", "without gravity"]),
     (
@@ -71,7 +71,7 @@ pub enum SpoilingOutcome {
 /// A spoiling of the logs of a trial that an oracle sees, and what became of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct JudgedSpoiling {
-    /// Its name on the sheet, without `log: `.
+    /// Its name on the sheet, without `log: ` or `model: `.
     pub name: String,
     /// The joint that it is at, where it is at one.
     pub joint: Option<String>,
@@ -126,9 +126,9 @@ impl SpoilingOutcome {
 }
 
 impl JudgedSpoiling {
-    /// Whether a stranger of a sheet is in the logs instead of the arm.
+    /// Whether a stranger of a sheet is in the logs, or in how the model reads them, instead of the arm.
     pub(super) fn is_one(stranger: &TrueStranger) -> bool {
-        stranger.name.starts_with(SPOILING)
+        SPOILINGS.iter().any(|start| stranger.name.starts_with(start))
     }
 
     /// The visible spoilings among the strangers of a sheet.
@@ -148,7 +148,8 @@ impl JudgedSpoiling {
 }
 
 fn kind(stranger: &TrueStranger) -> &str {
-    stranger.name.strip_prefix(SPOILING).unwrap_or(&stranger.name)
+    let mut kinds = SPOILINGS.iter().filter_map(|start| stranger.name.strip_prefix(start));
+    kinds.next().unwrap_or(&stranger.name)
 }
 
 /// Whether a text names the spoiling and its joint, if it has one.

@@ -34,6 +34,7 @@ pub(super) fn scenario_sheet(
         name,
         joint: joint.clone(),
         strength,
+        spoiling: None,
     };
     let (unknown, known): (Vec<_>, Vec<_>) =
         truth.effects.iter().partition(|truth| without.contains(&truth.effect));
@@ -79,6 +80,9 @@ fn corner(scenario: &Scenario, loaded: &Loaded, given: &[Run]) -> Corner {
         logs: given.len(),
         length_s,
         repeats: specs.len() > 1 && specs.iter().all(|run| run.motion == specs[0].motion),
+        field: Vec::new(),
+        log_kinds: Vec::new(),
+        goal_delay_ms: None,
     }
 }
 

@@ -121,7 +121,7 @@ impl Misreading {
             Self::AxisTurned(_) => "model: axis turned",
         };
         let strength = Strength { sigmas, share, torque: share };
-        TrueStranger { name: name.to_owned(), joint, strength }
+        TrueStranger { name: name.to_owned(), joint, strength, spoiling: None }
     }
 
     /// The true arm with the axis that the model has turned.
