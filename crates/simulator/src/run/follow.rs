@@ -4,6 +4,7 @@ use robot::{Machine, MachineFault, PdGain, Reading, Robot};
 use crate::effects::spec::EffectSpec;
 use crate::error::SimulatorError;
 use crate::mechanics::inject::Inject;
+use crate::run::arm_state::ArmState;
 use crate::scenario::check::ScenarioRun;
 use crate::sensors::Sensors;
 use crate::simulator::{Simulator, Stepping};
@@ -25,6 +26,8 @@ pub(crate) struct ControlRow {
     pub links: Vec<Option<f64>>,
     pub command: Vec<f64>,
     pub reference: State,
+    /// What the arm did at the instant of the reading.
+    pub state: ArmState,
 }
 
 /// A motion and the controller that follows it.
@@ -44,6 +47,14 @@ pub(crate) fn simulator(
     sensors: Sensors,
     stepping: Stepping,
 ) -> Result<Simulator, SimulatorError> {
+    Simulator::new(robot, injected(robot, causes)?, sensors, stepping)
+}
+
+/// The laws of effects and strangers, in the order in which they act.
+pub(crate) fn injected(
+    robot: &Robot,
+    causes: ArmCauses<'_>,
+) -> Result<Vec<Box<dyn Inject>>, SimulatorError> {
     let ArmCauses { effects, strangers } = causes;
     let injected: Vec<Box<dyn Inject>> =
         effects::chain::inject_all(effects, robot).map_err(|(index, mistake)| {
@@ -60,8 +71,7 @@ pub(crate) fn simulator(
             found: mistake.found,
         }
     })?;
-    let all = around.ahead.into_iter().chain(injected).chain(around.behind);
-    Simulator::new(robot, all.collect(), sensors, stepping)
+    Ok(around.ahead.into_iter().chain(injected).chain(around.behind).collect())
 }
 
 /// Follows a motion with `tau = kp (q_ref - q) + kd (qd_ref - qd)`, within the torque limits.
@@ -90,15 +100,16 @@ pub(crate) fn follow(
             run.motion.sample(time_s, &mut reference);
         }
         simulator.read(&mut reading)?;
+        let state = (tick >= lead_in).then(|| ArmState::of(simulator));
         feedback(gains, robot, &reference, &reading, &mut command);
         simulator.actuate(&command)?;
         let mut row = Reading::default();
         simulator.record(&reading, &mut row);
         let links = simulator.record_links(&reading);
-        if tick >= lead_in {
+        if let Some(state) = state {
             row.time_s = time_s;
             let (command, reference) = (command.clone(), reference.clone());
-            rows.push(ControlRow { reading: row, links, command, reference });
+            rows.push(ControlRow { reading: row, links, command, reference, state });
             if (time_s + period_s).floor() > time_s.floor() {
                 on_second();
             }
