@@ -38,5 +38,6 @@ pub use robot_files::RobotFiles;
 pub use sheet::{CauseRole, Knowledge, Strength, TrueCause, TrueStranger, TruthSheet};
 pub use spec::{FORMAT, PopulationSpec, RecordedSpec};
 pub use store::{Came, Kept, Remade, Store};
+pub use trial::again::sheet_again;
 pub use trial::any::make_any;
 pub use trial::make::make;

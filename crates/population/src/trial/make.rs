@@ -1,6 +1,5 @@
 use std::path::{Path, PathBuf};
 
-use document::Document;
 use logs::Run;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -13,22 +12,18 @@ use simulator::{EffortSource, SimulatorError, simulate_noise_free, simulate_only
 use crate::bench::{BenchWishes, LabBench, draw_bench};
 use crate::corner::{Corner, Origin};
 use crate::error::PopulationError;
-use crate::oracle::noise::{OracleNoise, ReadingError};
+use crate::oracle::runs::{HELD_OUT, in_steps_of, scenario_of};
 use crate::robot_files::RobotFiles;
 use crate::sheet::{Knowledge, TruthSheet};
 use crate::spec::PopulationSpec;
 use crate::text_file::write_text;
 use crate::trial::background::{Friction, effects, everyday};
-use crate::trial::differences::{Drives, differences};
 use crate::trial::hidden::HiddenThings;
 use crate::trial::known::{NominalKnowledge, describe};
 use crate::trial::pilot::Pilot;
-use crate::trial::seen::{OracleRuns, inertias};
+use crate::trial::seen::{COARSE_MS, Seen, Truths};
 use crate::trial::spoilt::Spoilt;
 use crate::trial::step::{step_ms, whole_step_ms};
-
-/// Longest simulation step for sizing causes (ms).
-const PILOT_MS: f64 = 2.0;
 
 /// Draws of a trial before it fails.
 const TRIES: u64 = 8;
@@ -146,7 +141,6 @@ struct Draft {
     truth_file: PathBuf,
     nominal: Loaded,
     friction: Vec<Friction>,
-    noise: Vec<OracleNoise>,
 }
 
 impl Draft {
@@ -178,8 +172,7 @@ impl Draft {
         let (loaded, _) = in_folder("nominal", files)?;
         let files = describe(files, &loaded, &friction, known, random)?;
         let (nominal, _) = in_folder("nominal", &files)?;
-        let noise = noise(&bench, &truth.robot);
-        Ok(Self { bench, seed, truth, truth_file, nominal, friction, noise })
+        Ok(Self { bench, seed, truth, truth_file, nominal, friction })
     }
 
     fn friction(&self) -> Vec<EffectSpec> {
@@ -213,9 +206,7 @@ impl Draft {
             hidden: None,
             run: self.bench.runs.iter().cloned().chain([held_out]).collect(),
         };
-        let text = toml::to_string(&spec)
-            .map_err(|e| PopulationError::Unwritable { what: "scenario", reason: e.to_string() })?;
-        Ok(Scenario::from_document(&Document::from_text("scenario.toml", &text)?)?)
+        scenario_of(&spec)
     }
 
     /// Longest simulation step for the logs that encoders and springs allow (ms).
@@ -225,10 +216,9 @@ impl Draft {
         step_ms(&with_step, &effects, self.period_ms(), &self.encoder_steps())
     }
 
-    /// Simulation step for sizing causes and comparing torques (ms). Errors that two motions with the same step
-    /// share cancel.
+    /// Simulation step for sizing causes (ms).
     fn coarse_ms(&self) -> f64 {
-        whole_step_ms(self.period_ms(), PILOT_MS)
+        whole_step_ms(self.period_ms(), COARSE_MS)
     }
 
     /// Draws the hidden causes, with sizes around the threshold of visibility.
@@ -242,27 +232,10 @@ impl Draft {
             return Ok(HiddenThings::default());
         }
         let scenario = self.scenario(self.coarse_ms(), &HiddenThings::default())?;
-        let pilot = Pilot::new(&scenario, &self.noise, &self.friction())?;
+        let scenario = in_steps_of(&scenario, self.coarse_ms())?;
+        let friction = self.friction();
+        let pilot = Pilot::new(&scenario, &friction);
         Ok(HiddenThings::draw(&pilot, self.bench.class, causes, strangers, random))
-    }
-
-    /// Simulates the runs for the oracle, with the longest step that the hidden springs allow, at least that of
-    /// the logs.
-    fn oracle_runs(
-        &self,
-        shortest_ms: f64,
-        hidden: &HiddenThings,
-    ) -> Result<OracleRuns, PopulationError> {
-        let mut step = self.coarse_ms();
-        loop {
-            let seen = self
-                .scenario(step, hidden)
-                .and_then(|scenario| OracleRuns::new(&scenario, &self.friction(), hidden));
-            if seen.is_ok() || step <= shortest_ms {
-                return seen;
-            }
-            step = (0.5 * step).max(shortest_ms);
-        }
     }
 
     /// Simulates the runs and writes all files.
@@ -276,22 +249,13 @@ impl Draft {
         let scenario = self.scenario(step, hidden)?;
         let mut noisy = simulate_only(&scenario, &|name| name != HELD_OUT, &|| {})?;
         in_range(&self.truth.robot, &noisy.runs)?;
-        let seen = self.oracle_runs(step, hidden)?;
+        let (nominal, friction) = (&self.nominal.robot, &self.friction[..]);
+        let seen = Truths { scenario: &scenario, nominal, friction, hidden }.seen()?;
         let effects = [self.friction(), hidden.causes.clone()].concat();
-        let silent = |scenario, wanted: &dyn Fn(&str) -> bool| {
-            simulate_noise_free(scenario, wanted, &effects, &hidden.strangers)
-        };
-        let held_out = silent(&scenario, &|name| name == HELD_OUT)?;
-        let drives = match self.bench.sensors.effort {
-            EffortSource::Link => Drives::Unseen,
-            EffortSource::Commanded | EffortSource::Motor => Drives::Seen,
-        };
-        let models = [&self.truth.robot, &self.nominal.robot];
-        let differ = differences(models[0], &self.friction, models[1], &seen.runs, drives);
-        let (causes, mut strangers) = seen.strengths(&self.truth.robot, differ, &self.noise);
-        let scales = seen.scales(&self.truth.robot, &self.noise);
+        let held_out =
+            simulate_noise_free(&scenario, &|name| name == HELD_OUT, &effects, &hidden.strangers)?;
+        let Seen { clean, scales, causes, mut strangers } = seen;
         if let Some(spoilt) = spoilt {
-            let clean = silent(&scenario, &|name| name != HELD_OUT)?;
             strangers.push(spoilt.true_stranger(&self.truth.robot, &clean, &scales));
             spoilt.spoil(&self.truth.robot, &mut noisy.runs);
         }
@@ -335,28 +299,6 @@ impl Draft {
             repeats: self.bench.repeats,
         }
     }
-}
-
-/// Name of the run that takes no part in the diagnosis.
-const HELD_OUT: &str = "held_out";
-
-/// Noise of the sensors of each joint.
-fn noise(bench: &LabBench, robot: &Robot) -> Vec<OracleNoise> {
-    let s = &bench.sensors;
-    let inertias = inertias(robot);
-    let joint = |(name, inertia): (&str, f64)| {
-        let of =
-            |map: &std::collections::BTreeMap<String, f64>| map.get(name).copied().unwrap_or(0.0);
-        OracleNoise::new(
-            ReadingError { deviation: of(&s.effort_noise_nm), step: of(&s.effort_resolution_nm) },
-            ReadingError {
-                deviation: of(&s.position_noise_rad),
-                step: of(&s.position_resolution_rad),
-            },
-            inertia,
-        )
-    };
-    robot.joint_names().zip(inertias).map(joint).collect()
 }
 
 pub(crate) fn write_runs(folder: &Path, runs: &[Run]) -> Result<(), PopulationError> {
