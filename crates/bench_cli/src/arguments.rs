@@ -3,7 +3,7 @@ use clap::{Parser, Subcommand};
 use crate::commands::missing::Folder;
 use crate::commands::submit::submission;
 use crate::commands::times::measure;
-use crate::commands::{compare, figure, plan, schema, work};
+use crate::commands::{compare, figure, plan, schema, sheets, work};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -78,6 +78,8 @@ pub enum BenchCommand {
     Merge(Folder),
     /// Compares two results of the same trials, trial by trial: wins, losses and which trials turned
     Compare(compare::Arguments),
+    /// Works out anew what could be seen in the trials of a store; their logs stay
+    Sheets(sheets::Arguments),
     /// Draws a figure of the paper and says of every claim about it whether it holds
     #[command(after_help = FIGURE_EXAMPLES)]
     Figure(figure::arguments::Arguments),

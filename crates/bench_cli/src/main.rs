@@ -15,7 +15,7 @@ use crate::arguments::{Arguments, BenchCommand};
 use crate::commands::figure::draw;
 use crate::commands::submit::submission;
 use crate::commands::times::measure;
-use crate::commands::{compare, merge, plan, schema, status, work};
+use crate::commands::{compare, merge, plan, schema, sheets, status, work};
 use crate::error::BenchError;
 use crate::exit_status::BenchExitStatus;
 
@@ -41,6 +41,7 @@ fn run(arguments: &Arguments) -> Result<BenchExitStatus, BenchError> {
         BenchCommand::Status(arguments) => status::run(arguments),
         BenchCommand::Merge(arguments) => merge::run(arguments),
         BenchCommand::Compare(arguments) => compare::run(arguments),
+        BenchCommand::Sheets(arguments) => sheets::run(arguments),
         BenchCommand::Figure(arguments) => draw::run(arguments),
         BenchCommand::Times(arguments) => measure::run(arguments),
         BenchCommand::Schema(arguments) => schema::run(arguments),
