@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
 
 use benchmark::{
-    AccountProgress, Campaign, CampaignAccount, CampaignFolder, Judgement, LossStage, LostName,
-    NameError, OracleEffortNoise, Part, TrialAccount, TrialLogs, Workers, make_accounts, work,
+    AccountProgress, Campaign, CampaignAccount, CampaignFolder, ChosenTrials, Judgement, LossStage,
+    LostName, NameError, OracleEffortNoise, Part, TrialAccount, TrialLogs, Workers, make_accounts,
+    work,
 };
 use catalogue::EffectKind;
 use catalogue::EffectKind::{
@@ -368,6 +369,7 @@ fn accounts_are_taken_up_where_they_were_ended_and_sum_to_what_was_judged() {
         part: Part::WHOLE,
         logs: TrialLogs::Removed,
         store: Some(store.clone()),
+        chosen: ChosenTrials::All,
     };
     work(&folder, &workers, &Quiet).unwrap();
 

@@ -3,7 +3,7 @@ use clap::{Parser, Subcommand};
 use crate::commands::missing::Folder;
 use crate::commands::submit::submission;
 use crate::commands::times::measure;
-use crate::commands::{account, compare, damage, figure, plan, schema, work};
+use crate::commands::{account, compare, damage, figure, plan, schema, sheets, work};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -85,6 +85,8 @@ pub enum BenchCommand {
     /// Spoils the logs of a few trials more and more, kind by kind, and says what the answers become: a new name
     /// with nothing left open is the fault, and ends with code 1
     Damage(damage::Arguments),
+    /// Works out anew what could be seen in the trials of a store; their logs stay
+    Sheets(sheets::Arguments),
     /// Draws a figure of the paper and says of every claim about it whether it holds
     #[command(after_help = FIGURE_EXAMPLES)]
     Figure(figure::arguments::Arguments),

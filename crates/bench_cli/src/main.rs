@@ -15,7 +15,7 @@ use crate::arguments::{Arguments, BenchCommand};
 use crate::commands::figure::draw;
 use crate::commands::submit::submission;
 use crate::commands::times::measure;
-use crate::commands::{account, compare, damage, merge, plan, schema, status, work};
+use crate::commands::{account, compare, damage, merge, plan, schema, sheets, status, work};
 use crate::error::BenchError;
 use crate::exit_status::BenchExitStatus;
 
@@ -43,6 +43,7 @@ fn run(arguments: &Arguments) -> Result<BenchExitStatus, BenchError> {
         BenchCommand::Account(arguments) => account::run(arguments),
         BenchCommand::Compare(arguments) => compare::run(arguments),
         BenchCommand::Damage(arguments) => damage::run(arguments),
+        BenchCommand::Sheets(arguments) => sheets::run(arguments),
         BenchCommand::Figure(arguments) => draw::run(arguments),
         BenchCommand::Times(arguments) => measure::run(arguments),
         BenchCommand::Schema(arguments) => schema::run(arguments),

@@ -46,5 +46,6 @@ pub use robot_shares::RobotShares;
 pub use sheet::{CauseRole, Knowledge, LogSpoiling, Strength, TrueCause, TrueStranger, TruthSheet};
 pub use spec::{FORMAT, LogKindSpec, PopulationSpec, RecordedSpec, ServoShareSpec};
 pub use store::{Came, Kept, Remade, Store};
+pub use trial::again::sheet_again;
 pub use trial::any::make_any;
 pub use trial::make::make;

@@ -81,14 +81,38 @@ impl Moving {
         let force = m * a + alpha.cross(&h) + omega.cross(&omega.cross(&h));
         let moment = h.cross(a) + inertia * alpha + omega.cross(&(inertia * omega));
         let origin = base_from_link.translation.vector;
+        self.add_wrench(link, origin, &force, &moment, tau);
+    }
+
+    /// Adds the torques `J^T F` of a force (N, in the frame of the base) at a point of a link (m, in its frame).
+    pub fn add_force(
+        &self,
+        link: usize,
+        force: Vector3<f64>,
+        point: Vector3<f64>,
+        tau: &mut [f64],
+    ) {
+        let at = self.links[link].base_from_link * nalgebra::Point3::from(point);
+        self.add_wrench(link, at.coords, &force, &Vector3::zeros(), tau);
+    }
+
+    /// Adds the torques of a force and a moment at a point, in the frame of the base.
+    fn add_wrench(
+        &self,
+        link: usize,
+        at: Vector3<f64>,
+        force: &Vector3<f64>,
+        moment: &Vector3<f64>,
+        tau: &mut [f64],
+    ) {
         let mut carrier = Some(link);
         while let Some(j) = carrier {
             let joint = &self.links[j];
-            let arm = origin - joint.base_from_link.translation.vector;
+            let arm = at - joint.base_from_link.translation.vector;
             tau[j] += if joint.turns {
-                joint.axis.dot(&(moment + arm.cross(&force)))
+                joint.axis.dot(&(moment + arm.cross(force)))
             } else {
-                joint.axis.dot(&force)
+                joint.axis.dot(force)
             };
             carrier = joint.parent;
         }

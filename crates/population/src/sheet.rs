@@ -98,7 +98,8 @@ pub struct LogSpoiling {
 /// c_j      the cause's torque at joint j along the motion
 /// A w      the best fit by everything else: all other causes; dry and viscous friction, offset and rotor of
 ///          every joint, of any size; every body, known to a twentieth
-/// S_j(f)   spectrum of the torque noise of joint j: sensor, and encoder carried through M_jj (2 pi f)^2
+/// S_j(f)   spectrum of the torque noise of joint j: sensor, what gains make of encoder steps in a logged command,
+///          and encoder carried through M_jj (2 pi f)^2
 /// sigmas = root of the least sum over f and j of |c_j(f) - A_j(f) w|^2 / S_j(f)   its size over its
 ///                                                                        Cramer-Rao deviation
 /// share  = root of the least mean of the sum over j of (c_j - A_j w)^2 / scale_j^2

@@ -7,7 +7,10 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use crate::error::PopulationError;
+use crate::sheet::TruthSheet;
 use crate::spec::{FORMAT, PopulationSpec};
+use crate::text_file::write_text;
+use crate::trial::again::sheet_again;
 use crate::trial::make::make;
 
 /// Name of the file that lists the files of an entry; it is written last.
@@ -64,6 +67,13 @@ struct Entry {
     files: BTreeMap<String, String>,
 }
 
+impl Entry {
+    fn write(&self, folder: &Path) -> Result<(), PopulationError> {
+        let text = serde_json::to_string_pretty(self).unwrap_or_default();
+        write_text(&folder.join(ENTRY), &text)
+    }
+}
+
 impl Store {
     /// Opens the store in a folder, creating the folder where it is absent.
     ///
@@ -106,6 +116,51 @@ impl Store {
         whole(&self.root.join(&key[..2]).join(&key)).is_ok()
     }
 
+    /// Works out the sheet of every trial anew, and leaves logs, list and format of the entry as they are but for the
+    /// sheet. So a program that takes this format can be judged by the oracle of this one.
+    ///
+    /// `on_trial` is called with the folder of each.
+    ///
+    /// # Errors
+    ///
+    /// [`PopulationError`] at the first trial that cannot be read, worked out or written.
+    pub fn sheets_again(&self, on_trial: &mut dyn FnMut(&Path)) -> Result<(), PopulationError> {
+        let at = PopulationError::of_folder(&self.root);
+        for folder in self.entries().map_err(&at)? {
+            let key = folder.file_name().unwrap_or_default();
+            let lock = File::create(self.root.join("locks").join(key)).map_err(&at)?;
+            lock.lock().map_err(&at)?;
+            let unreadable = |reason| PopulationError::Folder { path: folder.clone(), reason };
+            let text =
+                fs::read_to_string(folder.join(ENTRY)).map_err(|e| unreadable(e.to_string()))?;
+            let mut entry: Entry =
+                serde_json::from_str(&text).map_err(|e| unreadable(e.to_string()))?;
+            sheet_again(&folder)?.write(&folder)?;
+            let sheet = fs::read(folder.join(TruthSheet::FILE)).map_err(&at)?;
+            entry.files.insert(TruthSheet::FILE.to_owned(), hexadecimal(&sheet));
+            entry.write(&folder)?;
+            on_trial(&folder);
+        }
+        Ok(())
+    }
+
+    /// Folders of all complete entries, in order.
+    fn entries(&self) -> std::io::Result<Vec<PathBuf>> {
+        let mut all = Vec::new();
+        for part in fs::read_dir(&self.root)? {
+            let part = part?;
+            let name = part.file_name();
+            if name.len() == 2 && part.path().is_dir() {
+                for entry in fs::read_dir(part.path())? {
+                    all.push(entry?.path());
+                }
+            }
+        }
+        all.retain(|folder| folder.join(ENTRY).is_file());
+        all.sort();
+        Ok(all)
+    }
+
     fn fill(
         &self,
         spec: &PopulationSpec,
@@ -122,10 +177,7 @@ impl Store {
         fs::create_dir_all(making).map_err(&at)?;
         make(spec, seed, making)?;
         let entry = Entry { format: FORMAT, files: hashes(making).map_err(&at)? };
-        let text = serde_json::to_string_pretty(&entry).unwrap_or_default();
-        logs::replace_file(&making.join(ENTRY), |file| {
-            Ok(std::io::Write::write_all(file, text.as_bytes())?)
-        })?;
+        entry.write(making)?;
         fs::create_dir_all(folder.parent().unwrap_or(&self.root)).map_err(&at)?;
         fs::rename(making, folder).map_err(&at)
     }

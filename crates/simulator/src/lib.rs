@@ -26,11 +26,14 @@ pub use mechanics::plant::Plant;
 pub use mechanics::transmission::Transmission;
 pub use replay::forward::{ForwardReplay, Windows, replay_torque};
 pub use replay::motion::{MotionReplay, replay_motion};
+pub use run::arm_state::ArmState;
 pub use run::effect_sizer::EffectSizer;
+pub use run::laws::{ActingLaws, LawRow};
 pub use run::simulate::{
     Simulation, arm, draw_hidden_effects, simulate, simulate_noise_free, simulate_noise_free_start,
     simulate_only,
 };
+pub use run::true_run::{TrueRow, TrueRun, simulate_truly};
 pub use run::write::{LogFormat, write};
 pub use sensors::{EffortSource, JointSensor, LinkEncoder, PositionSide, Sensors, VelocitySource};
 pub use simulator::{Simulator, Stepping};

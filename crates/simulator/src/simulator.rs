@@ -196,6 +196,11 @@ impl Simulator {
         &self.motor_torque
     }
 
+    /// Torque that each transmission carried in the last step (N m or N); zero unless something needs it.
+    pub(crate) fn load_true(&self) -> &[f64] {
+        self.arm.transmitted_torque()
+    }
+
     /// The log row of the last [`read`](Machine::read): positions and velocities as read, effort of the
     /// same instant. To be called after [`actuate`](Machine::actuate).
     pub fn record(&mut self, read: &Reading, row: &mut Reading) {

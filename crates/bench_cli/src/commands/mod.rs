@@ -8,6 +8,7 @@ pub mod merge;
 pub mod missing;
 pub mod plan;
 pub mod schema;
+pub mod sheets;
 pub mod status;
 pub mod submit;
 pub mod times;

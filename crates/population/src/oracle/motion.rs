@@ -70,7 +70,7 @@ fn step_s(run: &Run) -> f64 {
 }
 
 /// Central differences of signals over time.
-fn slopes(signal: &DMatrix<f64>, step_s: f64) -> DMatrix<f64> {
+pub(crate) fn slopes(signal: &DMatrix<f64>, step_s: f64) -> DMatrix<f64> {
     let last = signal.nrows().saturating_sub(1);
     DMatrix::from_fn(signal.nrows(), signal.ncols(), |i, j| {
         let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
@@ -79,7 +79,7 @@ fn slopes(signal: &DMatrix<f64>, step_s: f64) -> DMatrix<f64> {
 }
 
 /// Means of `every` rows in turn; what is left at the end is left out.
-fn means(signal: &DMatrix<f64>, every: usize) -> DMatrix<f64> {
+pub(crate) fn means(signal: &DMatrix<f64>, every: usize) -> DMatrix<f64> {
     let rows = signal.nrows() / every;
     DMatrix::from_fn(rows, signal.ncols(), |i, j| {
         signal.column(j).rows(i * every, every).sum() / every as f64

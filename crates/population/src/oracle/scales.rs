@@ -9,7 +9,7 @@ use crate::oracle::regression::effort_rms;
 pub(crate) fn torque_scales(runs: &[SeenRun], robot: &Robot, noise: &[OracleNoise]) -> Vec<f64> {
     let joint = |(j, (link, noise)): (usize, (&robot::Link, &OracleNoise))| {
         let limit = link.joint.limits.effort.filter(|limit| limit.is_finite()).unwrap_or(0.0);
-        effort_rms(runs, j).max(noise.effort.sqrt()).max(1e-3 * limit).max(1e-6)
+        effort_rms(runs, j).max(noise.most().sqrt()).max(1e-3 * limit).max(1e-6)
     };
     robot.links().iter().zip(noise).enumerate().map(joint).collect()
 }

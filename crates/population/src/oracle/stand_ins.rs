@@ -5,16 +5,23 @@ use crate::moving::Moving;
 use crate::oracle::column::{StandIn, TorqueColumn};
 use crate::oracle::motion::SeenRun;
 
-/// Speed at which dry friction has three quarters of its level (rad/s or m/s).
+/// Speed up to which a joint creeps or stands (rad/s or m/s). Its friction is then anything up to the level, and
+/// no encoder that is read for a tenth of a second shows which way it goes: 2e-4 rad are an eighth of a step of 12
+/// bits.
 const CREEP: f64 = 2e-3;
 
 /// Prior deviation of bodies: share of mass, offset of the centre of mass as a share of the radius of
 /// gyration, and share of inertia.
 const KNOWN: f64 = 0.05;
 
-/// Sign of a velocity, smooth about zero.
+/// Whether a joint of this velocity moves.
+pub(crate) fn moves(qd: f64) -> bool {
+    qd.abs() > CREEP
+}
+
+/// Sign of the velocity of a joint that moves, zero of one that does not.
 pub(crate) fn dry(qd: f64) -> f64 {
-    (qd / CREEP).tanh()
+    if moves(qd) { qd.signum() } else { 0.0 }
 }
 
 /// Columns that may explain a cause instead: dry and viscous friction, an offset and a rotor of any size at

@@ -2,6 +2,8 @@ use catalogue::EffectKind;
 use simulator::effects::EffectSpec;
 use simulator::strangers::{StrangerKind, StrangerSpec};
 
+use crate::oracle::along::Which;
+
 /// Kind of a hidden cause.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum HiddenKind {
@@ -18,6 +20,26 @@ pub(crate) struct HiddenThings {
     pub causes: Vec<EffectSpec>,
     /// Effects outside the catalogue.
     pub strangers: Vec<StrangerSpec>,
+}
+
+impl HiddenThings {
+    /// One thing alone.
+    pub fn of(sized: SizedCause) -> Self {
+        match sized {
+            SizedCause::Cause(effect) => Self { causes: vec![effect], ..Self::default() },
+            SizedCause::Stranger(stranger) => Self { strangers: vec![stranger], ..Self::default() },
+        }
+    }
+
+    /// All but one.
+    pub fn without(&self, which: Which) -> Self {
+        let mut rest = self.clone();
+        match which {
+            Which::Cause(k) => drop(rest.causes.remove(k)),
+            Which::Stranger(k) => drop(rest.strangers.remove(k)),
+        }
+        rest
+    }
 }
 
 /// An effect or a stranger with a size.

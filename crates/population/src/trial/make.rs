@@ -1,6 +1,5 @@
 use std::path::{Path, PathBuf};
 
-use document::Document;
 use logs::Run;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -13,25 +12,23 @@ use simulator::{EffortSource, SimulatorError, simulate_noise_free, simulate_only
 use crate::bench::{BenchWishes, LabBench, draw_bench};
 use crate::corner::{Corner, Origin};
 use crate::error::PopulationError;
-use crate::oracle::noise::{OracleNoise, ReadingError};
+use crate::oracle::motion::SeenRun;
+use crate::oracle::noise::OracleNoise;
+use crate::oracle::runs::{HELD_OUT, in_steps_of, scenario_of};
 use crate::robot_files::RobotFiles;
 use crate::sheet::{Knowledge, TrueStranger, TruthSheet};
 use crate::spec::PopulationSpec;
 use crate::text_file::write_text;
 use crate::trial::background::{Friction, effects, everyday};
-use crate::trial::differences::{Drives, differences};
 use crate::trial::field::faults::FieldFaults;
 use crate::trial::hidden::HiddenThings;
 use crate::trial::known::{NominalKnowledge, describe};
 use crate::trial::log_draw::LogDraw;
 use crate::trial::pilot::Pilot;
-use crate::trial::seen::{OracleRuns, inertias};
+use crate::trial::seen::{COARSE_MS, Seen, Truths};
 use crate::trial::servo::without_efforts;
 use crate::trial::spoilt::log_damage::LogDamage;
 use crate::trial::step::{step_ms, whole_step_ms};
-
-/// Longest simulation step for sizing causes (ms).
-const PILOT_MS: f64 = 2.0;
 
 /// Draws of a trial before it fails.
 const TRIES: u64 = 8;
@@ -163,7 +160,6 @@ struct Draft {
     nominal: Loaded,
     nominal_files: RobotFiles,
     friction: Vec<Friction>,
-    noise: Vec<OracleNoise>,
 }
 
 impl Draft {
@@ -199,19 +195,7 @@ impl Draft {
         let (loaded, _) = in_folder("nominal", files)?;
         let nominal_files = describe(files, &loaded, &friction, known, random)?;
         let (nominal, _) = in_folder("nominal", &nominal_files)?;
-        let noise = noise(&bench, &truth.robot);
-        Ok(Self {
-            bench,
-            faults,
-            log,
-            seed,
-            truth,
-            truth_file,
-            nominal,
-            nominal_files,
-            friction,
-            noise,
-        })
+        Ok(Self { bench, faults, log, seed, truth, truth_file, nominal, nominal_files, friction })
     }
 
     fn friction(&self) -> Vec<EffectSpec> {
@@ -245,9 +229,7 @@ impl Draft {
             hidden: None,
             run: self.bench.runs.iter().cloned().chain([held_out]).collect(),
         };
-        let text = toml::to_string(&spec)
-            .map_err(|e| PopulationError::Unwritable { what: "scenario", reason: e.to_string() })?;
-        Ok(Scenario::from_document(&Document::from_text("scenario.toml", &text)?)?)
+        scenario_of(&spec)
     }
 
     /// Longest simulation step for the logs that encoders and springs allow (ms).
@@ -257,10 +239,9 @@ impl Draft {
         step_ms(&with_step, &effects, self.period_ms(), &self.encoder_steps())
     }
 
-    /// Simulation step for sizing causes and comparing torques (ms). Errors that two motions with the same step
-    /// share cancel.
+    /// Simulation step for sizing causes (ms).
     fn coarse_ms(&self) -> f64 {
-        whole_step_ms(self.period_ms(), PILOT_MS)
+        whole_step_ms(self.period_ms(), COARSE_MS)
     }
 
     /// Draws the hidden causes, with sizes around the threshold of visibility.
@@ -274,27 +255,10 @@ impl Draft {
             return Ok(HiddenThings::default());
         }
         let scenario = self.scenario(self.coarse_ms(), &HiddenThings::default())?;
-        let pilot = Pilot::new(&scenario, &self.noise, &self.friction())?;
+        let scenario = in_steps_of(&scenario, self.coarse_ms())?;
+        let friction = self.friction();
+        let pilot = Pilot::new(&scenario, &friction);
         Ok(HiddenThings::draw(&pilot, self.bench.class, causes, strangers, random))
-    }
-
-    /// Simulates the runs for the oracle, with the longest step that the hidden springs allow, at least that of
-    /// the logs.
-    fn oracle_runs(
-        &self,
-        shortest_ms: f64,
-        hidden: &HiddenThings,
-    ) -> Result<OracleRuns, PopulationError> {
-        let mut step = self.coarse_ms();
-        loop {
-            let seen = self
-                .scenario(step, hidden)
-                .and_then(|scenario| OracleRuns::new(&scenario, &self.friction(), hidden));
-            if seen.is_ok() || step <= shortest_ms {
-                return seen;
-            }
-            step = (0.5 * step).max(shortest_ms);
-        }
     }
 
     /// Simulates the runs and writes all files.
@@ -308,26 +272,19 @@ impl Draft {
         let scenario = self.scenario(step, hidden)?;
         let mut noisy = simulate_only(&scenario, &|name| name != HELD_OUT, &|| {})?;
         in_range(&self.truth.robot, &noisy.runs)?;
-        let seen = self.oracle_runs(step, hidden)?;
+        let (nominal, friction) = (&self.nominal.robot, &self.friction[..]);
+        let beside = |runs: &[SeenRun]| {
+            self.faults.differences(&self.truth.robot, nominal, runs).collect::<Vec<_>>()
+        };
+        let seen =
+            Truths { scenario: &scenario, nominal, friction, hidden, beside: &beside }.seen()?;
         let effects = [self.friction(), hidden.causes.clone()].concat();
-        let silent = |scenario, wanted: &dyn Fn(&str) -> bool| {
-            simulate_noise_free(scenario, wanted, &effects, &hidden.strangers)
-        };
-        let held_out = silent(&scenario, &|name| name == HELD_OUT)?;
-        let drives = match self.bench.sensors.effort {
-            EffortSource::Link => Drives::Unseen,
-            EffortSource::Commanded | EffortSource::Motor => Drives::Seen,
-        };
-        let models = [&self.truth.robot, &self.nominal.robot];
-        let mut differ = differences(models[0], &self.friction, models[1], &seen.runs, drives);
-        differ.extend(self.faults.differences(models[0], models[1], &seen.runs));
-        let (causes, mut strangers) = seen.strengths(&self.truth.robot, differ, &self.noise);
-        let scales = seen.scales(&self.truth.robot, &self.noise);
-        if damage.is_some() || self.log.servo.is_some() {
-            let clean = silent(&scenario, &|name| name != HELD_OUT)?;
-            strangers.extend(self.true_strangers(&clean, &scales, damage.as_ref()));
-        }
-        strangers.extend(self.faults.strangers(&self.truth.robot, &seen.runs, &scales));
+        let held_out =
+            simulate_noise_free(&scenario, &|name| name == HELD_OUT, &effects, &hidden.strangers)?;
+        let Seen { runs, noise, clean, scales, causes, mut strangers } = seen;
+        let known = (&noise[..], &scales[..]);
+        strangers.extend(self.true_strangers(&clean, known, damage.as_ref()));
+        strangers.extend(self.faults.strangers(&self.truth.robot, &runs, &scales));
         self.faults.spoil(&mut noisy.runs);
         let corner = self.corner(&noisy.runs, damage.as_ref());
         let logs = self.change_logs([noisy.runs, held_out], damage.as_ref(), folder)?;
@@ -353,12 +310,11 @@ impl Draft {
     fn true_strangers(
         &self,
         clean: &[Run],
-        scales: &[f64],
+        known: (&[OracleNoise], &[f64]),
         damage: Option<&LogDamage>,
     ) -> Vec<TrueStranger> {
-        let known = (&self.noise[..], scales);
         let late = self.log.servo.map(|servo| servo.late_goals(&self.truth, clean, known));
-        let spoilt = damage.map(|d| d.true_stranger(&self.truth.robot, clean, scales));
+        let spoilt = damage.map(|d| d.true_stranger(&self.truth.robot, clean, known.1));
         late.into_iter().chain(spoilt).collect()
     }
 
@@ -410,28 +366,6 @@ impl Draft {
             goal_delay_ms: self.log.servo.map(|servo| servo.delay_ms),
         }
     }
-}
-
-/// Name of the run that takes no part in the diagnosis.
-const HELD_OUT: &str = "held_out";
-
-/// Noise of the sensors of each joint.
-fn noise(bench: &LabBench, robot: &Robot) -> Vec<OracleNoise> {
-    let s = &bench.sensors;
-    let inertias = inertias(robot);
-    let joint = |(name, inertia): (&str, f64)| {
-        let of =
-            |map: &std::collections::BTreeMap<String, f64>| map.get(name).copied().unwrap_or(0.0);
-        OracleNoise::new(
-            ReadingError { deviation: of(&s.effort_noise_nm), step: of(&s.effort_resolution_nm) },
-            ReadingError {
-                deviation: of(&s.position_noise_rad),
-                step: of(&s.position_resolution_rad),
-            },
-            inertia,
-        )
-    };
-    robot.joint_names().zip(inertias).map(joint).collect()
 }
 
 pub(crate) fn write_runs(folder: &Path, runs: &[Run]) -> Result<(), PopulationError> {

@@ -1,5 +1,6 @@
 //! A simulated trial: drawn from a seed, made into files.
 
+pub(crate) mod again;
 pub(crate) mod any;
 pub(crate) mod background;
 pub(crate) mod differences;
@@ -14,3 +15,4 @@ pub(crate) mod seen;
 pub(crate) mod servo;
 pub(crate) mod spoilt;
 pub(crate) mod step;
+pub(crate) mod workshop;

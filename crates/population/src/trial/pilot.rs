@@ -1,125 +1,170 @@
+use std::cell::OnceCell;
+
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 use simulator::effects::EffectSpec;
 use simulator::scenario::Scenario;
-use simulator::strangers::StrangerSpec;
-use simulator::{EffectSizer, simulate_noise_free};
+use simulator::{EffectSizer, TrueRun, simulate_truly};
 
 use crate::error::PopulationError;
+use crate::oracle::along::{Arm, Which, added_torque};
 use crate::oracle::column::{StandIn, TorqueColumn};
-use crate::oracle::motion::SeenRun;
-use crate::oracle::noise::OracleNoise;
 use crate::oracle::regression::strengths;
+use crate::oracle::runs::OracleRuns;
 use crate::oracle::scales::torque_scales;
 use crate::oracle::stand_ins::stand_ins;
 use crate::sheet::Strength;
-use crate::trial::hidden::{HiddenKind, SizedCause};
+use crate::trial::hidden::{HiddenKind, HiddenThings, SizedCause};
 
 /// First torque share that is tried.
 const FIRST_SHARE: f64 = 0.1;
 
-/// Least and largest torque share.
-const SHARES: [f64; 2] = [2e-3, 3.0];
+/// Least and largest torque share. What takes as much torque as the arm itself is found by hand.
+const SHARES: [f64; 2] = [2e-3, 1.0];
 
-/// The first run of a trial, on which hidden causes are sized.
+/// Least share of its way that a joint still makes with a cause in the arm. An arm that lags or sags by more is no
+/// longer driven: somebody raises its gains first.
+const STILL_MOVES: f64 = 0.5;
+
+/// The runs of a trial in which hidden causes are sized, those in which their joint moves most.
 ///
-/// The torque of most effects is proportional to the requested share, so one run with a tenth of the torque
-/// gives the share for the strength wanted:
+/// The torque of most effects is proportional to the requested share, so the torque of a tenth gives the share for
+/// the strength wanted:
 ///
 /// ```text
 /// share = 0.1 wanted / strength(0.1),   strength = min(sigmas / 5, share / floor)
 /// ```
 pub(crate) struct Pilot<'a> {
     scenario: &'a Scenario,
-    robot: &'a Robot,
-    noise: &'a [OracleNoise],
-    base: Vec<EffectSpec>,
+    base: &'a [EffectSpec],
+    /// Number of the run for each joint.
+    run_of_joint: Vec<usize>,
+    /// One a run, simulated when it is first needed.
+    runs: Vec<OnceCell<Option<PilotRun<'a>>>>,
+}
+
+/// A run with nothing but everyday friction.
+struct PilotRun<'a> {
     bench: EffectSizer<'a>,
-    seen: SeenRun,
+    oracle: OracleRuns,
     scales: Vec<f64>,
     stand_ins: Vec<TorqueColumn>,
 }
 
-impl<'a> Pilot<'a> {
-    /// The first run of a scenario with nothing but its everyday friction.
-    pub fn new(
-        scenario: &'a Scenario,
-        noise: &'a [OracleNoise],
-        base: &[EffectSpec],
-    ) -> Result<Self, PopulationError> {
+impl<'a> PilotRun<'a> {
+    fn new(scenario: &'a Scenario, run: usize) -> Result<Self, PopulationError> {
         let robot = scenario.robot();
-        let seen = first(scenario, base, &[])?;
-        let stand_ins = stand_ins(robot, std::slice::from_ref(&seen));
-        let bench = EffectSizer::new(scenario)?;
-        let scales = torque_scales(std::slice::from_ref(&seen), robot, noise);
-        Ok(Self { scenario, robot, noise, base: base.to_vec(), bench, seen, scales, stand_ins })
+        let name = &scenario.runs()[run].name;
+        let oracle = OracleRuns::new(scenario, &|wanted| wanted == name)?;
+        let bench = EffectSizer::on(scenario, run)?;
+        let scales = torque_scales(&oracle.seen, robot, &oracle.noise);
+        let stand_ins = stand_ins(robot, &oracle.seen);
+        Ok(Self { bench, oracle, scales, stand_ins })
+    }
+}
+
+impl<'a> Pilot<'a> {
+    /// For a scenario whose only effects are everyday friction, with logs that lose no row.
+    pub fn new(scenario: &'a Scenario, base: &'a [EffectSpec]) -> Self {
+        let count = scenario.robot().joint_count();
+        let seen = scenario.runs().len().saturating_sub(1).max(1);
+        let way = |run: usize, joint: usize| {
+            let motion = &scenario.runs()[run].motion;
+            let at = |k: usize| motion.at(motion.duration_s() * k as f64 / SAMPLES as f64).q[joint];
+            (0..SAMPLES).map(|k| (at(k + 1) - at(k)).abs()).sum::<f64>()
+        };
+        let most = |joint: usize| {
+            let far = |run: &usize| way(*run, joint);
+            // The first of equals.
+            (0..seen).rev().max_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0)
+        };
+        let run_of_joint = (0..count).map(most).collect();
+        let runs = (0..seen).map(|_| OnceCell::new()).collect();
+        Self { scenario, base, run_of_joint, runs }
     }
 
-    /// A cause of about the strength wanted, with 1 at the threshold of visibility; `None` where the arm runs away
-    /// or the cause has no torque.
+    fn robot(&self) -> &'a Robot {
+        self.scenario.robot()
+    }
+
+    /// A cause of about the strength wanted, with 1 at the threshold of visibility, within what workshops have; `None`
+    /// where the arm runs away or stops, or the log cannot show the cause.
     pub fn spec_of_strength(
         &self,
         hidden: HiddenKind,
         wanted: f64,
         random: &mut ChaCha8Rng,
     ) -> Option<SizedCause> {
-        let joint = random.random_range(0..self.robot.joint_count());
+        let joint = random.random_range(0..self.robot().joint_count());
         let seed = random.random::<u64>();
-        if matches!(hidden, HiddenKind::Stranger(kind) if !kind.fits(self.robot, joint)) {
+        if matches!(hidden, HiddenKind::Stranger(kind) if !kind.fits(self.robot(), joint)) {
             return None;
         }
-        let first = self.of_share(hidden, joint, FIRST_SHARE, seed);
-        let strength = over_threshold(&self.strength(&first)?);
+        let run = self.run_of_joint[joint];
+        let pilot =
+            self.runs[run].get_or_init(|| PilotRun::new(self.scenario, run).ok()).as_ref()?;
+        let of_share = |share| match hidden {
+            HiddenKind::Cause(kind) => {
+                SizedCause::Cause(pilot.bench.effect(kind, joint, share, seed))
+            }
+            HiddenKind::Stranger(kind) => {
+                SizedCause::Stranger(pilot.bench.stranger(kind, joint, share, seed))
+            }
+        };
+        let strength = over_threshold(&self.strength(pilot, run, &of_share(FIRST_SHARE))?);
         if strength <= 1e-6 {
             return None;
         }
         let share = (FIRST_SHARE * wanted / strength).clamp(SHARES[0], SHARES[1]);
-        let sized = self.of_share(hidden, joint, share, seed);
-        self.strength(&sized).map(|_| sized)
+        let sized = of_share(share).within_workshops();
+        let with = self.simulate(run, &sized)?;
+        still_moves(&pilot.oracle.truly[0], &with).then_some(sized)
     }
 
-    fn of_share(&self, hidden: HiddenKind, joint: usize, share: f64, seed: u64) -> SizedCause {
-        match hidden {
-            HiddenKind::Cause(kind) => {
-                SizedCause::Cause(self.bench.effect(kind, joint, share, seed))
-            }
-            HiddenKind::Stranger(kind) => {
-                SizedCause::Stranger(self.bench.stranger(kind, joint, share, seed))
-            }
-        }
+    /// The run with a cause in the arm; `None` where it cannot be simulated.
+    fn simulate(&self, run: usize, sized: &SizedCause) -> Option<TrueRun> {
+        let hidden = HiddenThings::of(sized.clone());
+        let effects = [self.base, &hidden.causes[..]].concat();
+        let name = &self.scenario.runs()[run].name;
+        let runs =
+            simulate_truly(self.scenario, &|wanted| wanted == name, &effects, &hidden.strangers);
+        runs.ok()?.pop()
     }
 
-    /// Its visibility in the first run; `None` where the arm cannot be simulated with it.
-    fn strength(&self, sized: &SizedCause) -> Option<Strength> {
-        let mut effects = self.base.clone();
-        let mut strangers = Vec::new();
-        match sized {
-            SizedCause::Cause(effect) => effects.push(effect.clone()),
-            SizedCause::Stranger(stranger) => strangers.push(stranger.clone()),
-        }
-        let with = first(self.scenario, &effects, &strangers).ok()?;
-        let rows = with.rows().min(self.seen.rows());
-        let torque = with.beyond.rows(0, rows) - self.seen.beyond.rows(0, rows);
-        let column = TorqueColumn { stands_for: StandIn::Itself, torque: vec![torque], prior: 0.0 };
+    /// Its visibility in a run. What bends is simulated, all else acts along the motion without it.
+    fn strength(&self, pilot: &PilotRun<'_>, run: usize, sized: &SizedCause) -> Option<Strength> {
+        let oracle = &pilot.oracle;
+        let hidden = HiddenThings::of(sized.clone());
+        let bends = matches!(
+            sized,
+            SizedCause::Cause(EffectSpec::Backlash(_) | EffectSpec::JointElasticity(_))
+        );
+        let along = if bends { vec![self.simulate(run, sized)?] } else { oracle.truly.clone() };
+        let which = if hidden.causes.is_empty() { Which::Stranger(0) } else { Which::Cause(0) };
+        let (robot, sensing) = (self.robot(), oracle.sensing);
+        let arm = Arm { robot, sensing, base: self.base, hidden: &hidden };
+        let torque = added_torque(arm, &along, &oracle.seen, which).ok()?;
+        let column = TorqueColumn { stands_for: StandIn::Itself, torque, prior: 0.0 };
         let columns: Vec<TorqueColumn> =
-            std::iter::once(column).chain(self.stand_ins.iter().cloned()).collect();
-        strengths(std::slice::from_ref(&self.seen), &columns, 1, self.noise, &self.scales).pop()
+            std::iter::once(column).chain(pilot.stand_ins.iter().cloned()).collect();
+        strengths(&oracle.seen, &columns, 1, &oracle.noise, &pilot.scales).pop()
     }
+}
+
+/// Instants at which a motion is looked at for the way of its joints.
+const SAMPLES: usize = 200;
+
+/// Whether every link still makes a share of the way that it makes without a cause.
+fn still_moves(without: &TrueRun, with: &TrueRun) -> bool {
+    let way = |run: &TrueRun, j: usize| {
+        let q = |row: &simulator::TrueRow| row.state.q[j];
+        run.rows.windows(2).map(|rows| (q(&rows[1]) - q(&rows[0])).abs()).sum::<f64>()
+    };
+    (0..without.log.joints.len()).all(|j| way(with, j) >= STILL_MOVES * way(without, j))
 }
 
 /// Strength relative to the threshold of visibility.
 fn over_threshold(strength: &Strength) -> f64 {
     (strength.sigmas / Strength::SIGMAS).min(strength.share / Strength::FLOOR)
-}
-
-fn first(
-    scenario: &Scenario,
-    effects: &[EffectSpec],
-    strangers: &[StrangerSpec],
-) -> Result<SeenRun, PopulationError> {
-    let name = scenario.runs().first().map_or("", |run| run.name.as_str());
-    let runs = simulate_noise_free(scenario, &|wanted| wanted == name, effects, strangers)?;
-    let run = runs.first().ok_or(PopulationError::NoRun)?;
-    Ok(SeenRun::new(scenario.robot(), run))
 }

@@ -1,142 +1,138 @@
 use nalgebra::DMatrix;
 use robot::Robot;
-use simulator::effects::EffectSpec;
 use simulator::scenario::Scenario;
-use simulator::strangers::StrangerSpec;
-use simulator::{StrangerTruth, Truth, simulate_noise_free};
+use simulator::{StrangerTruth, Truth};
 
 use crate::error::PopulationError;
+use crate::oracle::along::{Arm, Which, added_torque};
 use crate::oracle::column::{StandIn, TorqueColumn};
 use crate::oracle::motion::SeenRun;
 use crate::oracle::noise::OracleNoise;
 use crate::oracle::regression::strengths;
+use crate::oracle::runs::{HELD_OUT, OracleRuns, in_steps_of};
 use crate::oracle::scales::torque_scales;
 use crate::oracle::stand_ins::stand_ins;
-use crate::rigid::mass_matrix;
 use crate::sheet::{CauseRole, TrueCause, TrueStranger};
-use crate::trial::differences::Difference;
+use crate::trial::background::{Friction, effects};
+use crate::trial::differences::{Difference, Drives, differences};
 use crate::trial::hidden::HiddenThings;
+use crate::trial::step::whole_step_ms;
 
-/// The noise-free runs of a trial, and the torque of each hidden cause in them:
-///
-/// ```text
-/// torque of k = (effort - bodies along the motion) of the arm  -  the same of the arm without k
-/// ```
-///
-/// The motion changes where `k` is left out, so the torque of the bodies is subtracted on both sides.
-pub(crate) struct OracleRuns {
+/// Longest simulation step for sizing causes and for what an oracle sees (ms).
+pub(crate) const COARSE_MS: f64 = 2.0;
+
+/// What there is to be seen in a trial.
+pub(crate) struct Seen {
+    /// What the oracle looks at of these logs.
     pub runs: Vec<SeenRun>,
-    causes: Vec<(Truth, Vec<DMatrix<f64>>)>,
-    strangers: Vec<(StrangerTruth, Vec<DMatrix<f64>>)>,
+    /// Noise of the sensors of each joint.
+    pub noise: Vec<OracleNoise>,
+    /// The logs that take part, without errors of the sensors.
+    pub clean: Vec<logs::Run>,
+    /// Scale of torques at each joint; see [`crate::sheet::TruthSheet::torque_rms`].
+    pub scales: Vec<f64>,
+    pub causes: Vec<TrueCause>,
+    pub strangers: Vec<TrueStranger>,
 }
 
-impl OracleRuns {
-    /// Simulates the runs once with everything and once without each hidden cause.
-    pub fn new(
-        scenario: &Scenario,
-        friction: &[EffectSpec],
-        hidden: &HiddenThings,
-    ) -> Result<Self, PopulationError> {
-        let runs = simulate_without_noise(scenario, friction, &hidden.causes, &hidden.strangers)?;
-        let without_cause = |k: usize| {
-            let others = without(&hidden.causes, k);
-            let runs_without =
-                simulate_without_noise(scenario, friction, &others, &hidden.strangers)?;
-            Ok((hidden.causes[k].truth(), beyond(&runs, &runs_without)))
-        };
-        let without_stranger = |k: usize| {
-            let others = without(&hidden.strangers, k);
-            let runs_without = simulate_without_noise(scenario, friction, &hidden.causes, &others)?;
-            Ok((hidden.strangers[k].truth(), beyond(&runs, &runs_without)))
-        };
-        let causes: Result<_, PopulationError> =
-            (0..hidden.causes.len()).map(without_cause).collect();
-        let strangers: Result<_, PopulationError> =
-            (0..hidden.strangers.len()).map(without_stranger).collect();
-        let (causes, strangers) = (causes?, strangers?);
-        Ok(Self { runs, causes, strangers })
+/// The arm of a trial and what is hidden in it.
+pub(crate) struct Truths<'a> {
+    /// Everything but the held-out run is seen.
+    pub scenario: &'a Scenario,
+    pub nominal: &'a Robot,
+    pub friction: &'a [Friction],
+    pub hidden: &'a HiddenThings,
+    /// Differences from the nominal model beyond those of bodies, rotors and friction, along what is seen.
+    pub beside: &'a dyn Fn(&[SeenRun]) -> Vec<Difference>,
+}
+
+impl Truths<'_> {
+    /// Visibility of every difference from the nominal model and of everything hidden.
+    pub fn seen(&self) -> Result<Seen, PopulationError> {
+        let robot = self.scenario.robot();
+        let runs = self.runs()?;
+        let drives = if runs.sensing.sees_drives() { Drives::Seen } else { Drives::Unseen };
+        let mut differ = differences(robot, self.friction, self.nominal, &runs.seen, drives);
+        differ.extend((self.beside)(&runs.seen));
+        let base = effects(robot, self.friction);
+        let arm = Arm { robot, sensing: runs.sensing, base: &base, hidden: self.hidden };
+        let added = |which| added_torque(arm, &runs.truly, &runs.seen, which);
+        let causes: Vec<(Truth, Vec<DMatrix<f64>>)> = (self.hidden.causes.iter().enumerate())
+            .map(|(k, cause)| Ok((cause.truth(), added(Which::Cause(k))?)))
+            .collect::<Result<_, PopulationError>>()?;
+        let strangers: Vec<(StrangerTruth, Vec<DMatrix<f64>>)> =
+            (self.hidden.strangers.iter().enumerate())
+                .map(|(k, stranger)| Ok((stranger.truth(), added(Which::Stranger(k))?)))
+                .collect::<Result<_, PopulationError>>()?;
+        let scales = torque_scales(&runs.seen, robot, &runs.noise);
+        let (causes, strangers) = judge(robot, &runs, &scales, differ, causes, strangers);
+        let OracleRuns { truly, seen, noise, .. } = runs;
+        let clean = truly.into_iter().map(|run| run.log).collect();
+        Ok(Seen { runs: seen, noise, clean, scales, causes, strangers })
     }
 
-    /// Scale of torques at each joint; see [`crate::sheet::Sheet::torque_rms`].
-    pub fn scales(&self, robot: &Robot, noise: &[OracleNoise]) -> Vec<f64> {
-        torque_scales(&self.runs, robot, noise)
-    }
-
-    /// Visibility of every difference from the nominal model and of every hidden cause.
-    pub fn strengths(
-        &self,
-        robot: &Robot,
-        differ: Vec<Difference>,
-        noise: &[OracleNoise],
-    ) -> (Vec<TrueCause>, Vec<TrueStranger>) {
-        let itself = |torque: &Vec<DMatrix<f64>>| TorqueColumn {
-            stands_for: StandIn::Itself,
-            torque: torque.clone(),
-            prior: 0.0,
-        };
-        let count = differ.len() + self.causes.len() + self.strangers.len();
-        let (places, differ): (Vec<_>, Vec<_>) =
-            differ.into_iter().map(|d| ((d.role, d.truth), d.column)).unzip();
-        let hidden = self.causes.iter().map(|(_, torque)| itself(torque));
-        let strange = self.strangers.iter().map(|(_, torque)| itself(torque));
-        let columns: Vec<TorqueColumn> = differ
-            .into_iter()
-            .chain(hidden)
-            .chain(strange)
-            .chain(stand_ins(robot, &self.runs))
-            .collect();
-        let scales = self.scales(robot, noise);
-        let mut strengths = strengths(&self.runs, &columns, count, noise, &scales).into_iter();
-        let roles = places
-            .into_iter()
-            .chain(self.causes.iter().map(|(truth, _)| (CauseRole::Hidden, truth.clone())));
-        let mut causes: Vec<TrueCause> = roles
-            .zip(strengths.by_ref())
-            .map(|((role, truth), strength)| TrueCause { role, truth, strength })
-            .collect();
-        // A link that is hidden on purpose is told once: its parameters are stated in whole.
-        let link = |truth: &Truth| (truth.effect, truth.link.clone());
-        let hidden: Vec<_> = self.causes.iter().map(|(truth, _)| link(truth)).collect();
-        causes.retain(|c| c.role != CauseRole::Nominal || !hidden.contains(&link(&c.truth)));
-        let unnamed = |((truth, _), strength): (&(StrangerTruth, _), _)| TrueStranger {
-            name: truth.stranger.name().to_owned(),
-            joint: truth.joint.clone(),
-            strength,
-            spoiling: None,
-        };
-        let strangers = self.strangers.iter().zip(strengths).map(unnamed).collect();
-        (causes, strangers)
+    /// The runs for the oracle, in the longest steps that hidden springs allow, at least those of the logs.
+    fn runs(&self) -> Result<OracleRuns, PopulationError> {
+        let shortest_ms = self.scenario.spec().engine.step_ms;
+        let period_ms = 1e3 / control_rate_hz(self.scenario);
+        let mut step = whole_step_ms(period_ms, COARSE_MS).max(shortest_ms);
+        loop {
+            let runs = in_steps_of(self.scenario, step)
+                .and_then(|scenario| OracleRuns::new(&scenario, &|name| name != HELD_OUT));
+            if runs.is_ok() || step <= shortest_ms {
+                return runs;
+            }
+            step = (0.5 * step).max(shortest_ms);
+        }
     }
 }
 
-fn without<T: Clone>(all: &[T], k: usize) -> Vec<T> {
-    let kept = all.iter().enumerate().filter(|(i, _)| *i != k);
-    kept.map(|(_, one)| one.clone()).collect()
+/// Rate of the controller of a scenario (Hz).
+pub(crate) fn control_rate_hz(scenario: &Scenario) -> f64 {
+    1.0 / scenario.period_s()
 }
 
-fn simulate_without_noise(
-    scenario: &Scenario,
-    friction: &[EffectSpec],
-    causes: &[EffectSpec],
-    strangers: &[StrangerSpec],
-) -> Result<Vec<SeenRun>, PopulationError> {
-    let effects = [friction, causes].concat();
-    let wanted = |name: &str| name != "held_out";
-    let runs = simulate_noise_free(scenario, &wanted, &effects, strangers)?;
-    Ok(runs.iter().map(|run| SeenRun::new(scenario.robot(), run)).collect())
-}
+type Hidden<T> = Vec<(T, Vec<DMatrix<f64>>)>;
 
-/// Efforts beyond the bodies of one arm minus those of another.
-fn beyond(with: &[SeenRun], without: &[SeenRun]) -> Vec<DMatrix<f64>> {
-    let run = |(with, without): (&SeenRun, &SeenRun)| &with.beyond - &without.beyond;
-    with.iter().zip(without).map(run).collect()
-}
-
-/// Inertia of each joint with all others held, drives included, in the middle of its range (kg m2 or kg).
-pub(crate) fn inertias(robot: &Robot) -> Vec<f64> {
-    let middle = |link: &robot::Link| {
-        link.joint.limits.position.map_or(0.0, |(low, high)| 0.5 * (low + high))
+fn judge(
+    robot: &Robot,
+    runs: &OracleRuns,
+    scales: &[f64],
+    differ: Vec<Difference>,
+    hidden: Hidden<Truth>,
+    strange: Hidden<StrangerTruth>,
+) -> (Vec<TrueCause>, Vec<TrueStranger>) {
+    let itself = |torque: Vec<DMatrix<f64>>| TorqueColumn {
+        stands_for: StandIn::Itself,
+        torque,
+        prior: 0.0,
     };
-    let q: Vec<f64> = robot.links().iter().map(middle).collect();
-    mass_matrix(robot, &q).diagonal().iter().copied().collect()
+    let count = differ.len() + hidden.len() + strange.len();
+    let (mut places, mut columns): (Vec<_>, Vec<_>) =
+        differ.into_iter().map(|d| ((d.role, d.truth), d.column)).unzip();
+    for (truth, torque) in hidden {
+        places.push((CauseRole::Hidden, truth));
+        columns.push(itself(torque));
+    }
+    let (strange, torques): (Vec<_>, Vec<_>) = strange.into_iter().unzip();
+    columns.extend(torques.into_iter().map(itself));
+    columns.extend(stand_ins(robot, &runs.seen));
+    let mut strengths = strengths(&runs.seen, &columns, count, &runs.noise, scales).into_iter();
+    let mut causes: Vec<TrueCause> = places
+        .into_iter()
+        .zip(strengths.by_ref())
+        .map(|((role, truth), strength)| TrueCause { role, truth, strength })
+        .collect();
+    // A link that is hidden on purpose is told once: its parameters are stated in whole.
+    let link = |cause: &TrueCause| (cause.truth.effect, cause.truth.link.clone());
+    let hidden: Vec<_> = causes.iter().filter(|c| c.role == CauseRole::Hidden).map(link).collect();
+    causes.retain(|c| c.role != CauseRole::Nominal || !hidden.contains(&link(c)));
+    let unnamed = |(truth, strength): (StrangerTruth, _)| TrueStranger {
+        name: truth.stranger.name().to_owned(),
+        joint: truth.joint,
+        strength,
+        spoiling: None,
+    };
+    let strangers = strange.into_iter().zip(strengths).map(unnamed).collect();
+    (causes, strangers)
 }

@@ -76,6 +76,14 @@ impl Efforts {
         }
     }
 
+    /// The forces so far: the link, the force (N, in the frame of the base) and where it acts (m, in the frame of
+    /// the link).
+    pub fn forces(
+        &self,
+    ) -> impl Iterator<Item = (usize, nalgebra::Vector3<f64>, nalgebra::Vector3<f64>)> + '_ {
+        self.pushes.iter().map(|push| (push.body, push.force_in_base, push.point_in_body))
+    }
+
     /// Adds a force (N, in the frame of the base) on a link at a point of it (m, in its frame).
     pub fn push(
         &mut self,

@@ -34,7 +34,7 @@ impl Transmission {
     /// ```text
     /// q - theta = -(load / stiffness + (gap / 2) sign(load))
     /// ```
-    pub(crate) fn deflection_under(&self, load: f64) -> f64 {
+    pub fn deflection_under(&self, load: f64) -> f64 {
         if load.abs() <= 0.0 {
             return 0.0;
         }

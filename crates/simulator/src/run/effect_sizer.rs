@@ -45,7 +45,20 @@ impl<'a> EffectSizer<'a> {
     ///
     /// [`SimulatorError`] when the arm cannot be simulated.
     pub fn new(scenario: &'a Scenario) -> Result<Self, SimulatorError> {
-        let run = scenario.runs()[0].clone();
+        Self::on(scenario, 0)
+    }
+
+    /// The same on the first 10 s of another run.
+    ///
+    /// # Errors
+    ///
+    /// As [`new`](Self::new).
+    ///
+    /// # Panics
+    ///
+    /// When the scenario has no run of this index.
+    pub fn on(scenario: &'a Scenario, run: usize) -> Result<Self, SimulatorError> {
+        let run = scenario.runs()[run].clone();
         let (nominal, levels, inertia) = (Vec::new(), Vec::new(), Vec::new());
         let mut bench = Self { scenario, run, nominal, levels, inertia };
         bench.nominal = bench.rows(&[])?;

@@ -4,6 +4,7 @@ use robot::{Machine, MachineFault, PdGain, Reading, Robot};
 use crate::effects::spec::EffectSpec;
 use crate::error::SimulatorError;
 use crate::mechanics::inject::Inject;
+use crate::run::arm_state::ArmState;
 use crate::run::goals::Goals;
 use crate::scenario::check::ScenarioRun;
 use crate::scenario::spec::ServoSpec;
@@ -27,6 +28,8 @@ pub(crate) struct ControlRow {
     pub links: Vec<Option<f64>>,
     pub command: Vec<f64>,
     pub reference: State,
+    /// What the arm did at the instant of the reading.
+    pub state: ArmState,
 }
 
 /// A motion and the controller that follows it.
@@ -48,6 +51,14 @@ pub(crate) fn simulator(
     sensors: Sensors,
     stepping: Stepping,
 ) -> Result<Simulator, SimulatorError> {
+    Simulator::new(robot, injected(robot, causes)?, sensors, stepping)
+}
+
+/// The laws of effects and strangers, in the order in which they act.
+pub(crate) fn injected(
+    robot: &Robot,
+    causes: ArmCauses<'_>,
+) -> Result<Vec<Box<dyn Inject>>, SimulatorError> {
     let ArmCauses { effects, strangers } = causes;
     let injected: Vec<Box<dyn Inject>> =
         effects::chain::inject_all(effects, robot).map_err(|(index, mistake)| {
@@ -64,8 +75,7 @@ pub(crate) fn simulator(
             found: mistake.found,
         }
     })?;
-    let all = around.ahead.into_iter().chain(injected).chain(around.behind);
-    Simulator::new(robot, all.collect(), sensors, stepping)
+    Ok(around.ahead.into_iter().chain(injected).chain(around.behind).collect())
 }
 
 /// Follows a motion with `tau = kp (q_ref - q) + kd (qd_ref - qd)`, or its goals as a [`ServoSpec`] says, within the
@@ -94,15 +104,16 @@ pub(crate) fn follow(
         let time_s = (tick as f64 - lead_in as f64) * period_s;
         goals.advance(time_s.max(0.0));
         simulator.read(&mut reading)?;
+        let state = (tick >= lead_in).then(|| ArmState::of(simulator));
         feedback(gains, robot, goals.followed(), &reading, &mut command);
         simulator.actuate(&command)?;
         let mut row = Reading::default();
         simulator.record(&reading, &mut row);
         let links = simulator.record_links(&reading);
-        if tick >= lead_in {
+        if let Some(state) = state {
             row.time_s = time_s;
             let (command, reference) = (command.clone(), goals.sent().clone());
-            rows.push(ControlRow { reading: row, links, command, reference });
+            rows.push(ControlRow { reading: row, links, command, reference, state });
             if (time_s + period_s).floor() > time_s.floor() {
                 on_second();
             }

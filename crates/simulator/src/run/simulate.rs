@@ -135,10 +135,19 @@ fn follow_without_noise(
     run: &ScenarioRun,
     longest_s: f64,
 ) -> Result<Run, SimulatorError> {
+    Ok(log_of_rows(scenario, run, &rows_without_noise(scenario, causes, run, longest_s)?))
+}
+
+/// The rows of a log without sensor errors.
+pub(crate) fn rows_without_noise(
+    scenario: &Scenario,
+    causes: ArmCauses<'_>,
+    run: &ScenarioRun,
+    longest_s: f64,
+) -> Result<Vec<ControlRow>, SimulatorError> {
     let sensors = scenario.noise_free_sensors();
     let rows = follow_run(scenario, causes, sensors, run, longest_s, &|| {})?;
-    let rows: Vec<ControlRow> = rows.into_iter().step_by(scenario.rows_per_log()).collect();
-    Ok(log_of_rows(scenario, run, &rows))
+    Ok(rows.into_iter().step_by(scenario.rows_per_log()).collect())
 }
 
 /// The arm of a scenario with all its effects, for use with another controller. The sensors draw from

@@ -132,6 +132,11 @@ impl Scenario {
         &self.gains
     }
 
+    /// Time from one command of the controller to the next (s).
+    pub fn period_s(&self) -> f64 {
+        self.stepping.step_s * self.stepping.steps_per_period.max(1) as f64
+    }
+
     pub(crate) fn stepping(&self) -> Stepping {
         self.stepping
     }
