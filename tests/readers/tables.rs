@@ -176,6 +176,9 @@ fn corner() -> Corner {
         logs: 2,
         length_s: 30.0,
         repeats: false,
+        field: Vec::new(),
+        log_kinds: Vec::new(),
+        goal_delay_ms: None,
     }
 }
 
