@@ -247,6 +247,7 @@ mod tests {
             motions: MotionClass::ALL.to_vec(),
             logs: [1, 4],
             log_s: [5.0, 6.0],
+            instruments: None,
         };
         draw_bench(&wishes, &mut ChaCha8Rng::seed_from_u64(seed)).unwrap()
     }
