@@ -137,12 +137,17 @@ fn every_test_that_fails_is_a_stage() {
 #[test]
 fn a_cause_below_the_real_noise_and_spoilt_logs_are_the_judges() {
     let elbow = sheet(&[(CoulombFriction, "elbow", SEEN)]);
-    // 50 sigmas at a tenth of the noise are five, at a hundredth none.
-    let of_share = |share: f64| {
+    // 50 sigmas at a tenth of the noise are five, unless the search shows it with the known noise.
+    let of_share = |share: f64, known: PlaceTest| {
         let density = as_known().density.iter().map(|d| share * share * d).collect();
-        stage_of(&elbow, &OracleEffortNoise { density }, place(CoulombFriction))
+        let place = PlaceAccount { with_known_noise: Some(known), ..place(CoulombFriction) };
+        stage_of(&elbow, &OracleEffortNoise { density }, place)
     };
-    assert_eq!((of_share(0.11), of_share(0.09)), (LossStage::Exchange, LossStage::Judge));
+    const UNSEEN: PlaceTest = PlaceTest { sigmas: 2.0, ..PASSED };
+    assert_eq!(
+        [of_share(0.11, UNSEEN), of_share(0.09, UNSEEN), of_share(0.09, PASSED)],
+        [LossStage::Exchange, LossStage::Judge, LossStage::Exchange]
+    );
 
     let judged = |findings| Judgement::new(&elbow, &answers(Verdict::Explained, findings));
     let spoilt = population::TrueStranger { name: "log: effort sign".to_owned(), ..stranger(SEEN) };

@@ -44,7 +44,9 @@ pub(super) fn stage_of_forms(
     Some((LossStage::Judge, format!("it is inside {}", form.at.words())))
 }
 
-/// The stage that loses a cause, by what became of its place.
+/// The stage that loses a cause, by what became of its place. A cause is below the real noise where the oracle's noise
+/// of the efforts, scaled to the known one, leaves it too few deviations, and the search beside the true names with the
+/// known noise does not show it either.
 pub(super) fn stage_of_cause(
     (sheet, cause): (&TruthSheet, &TrueCause),
     oracle: &OracleEffortNoise,
@@ -52,7 +54,8 @@ pub(super) fn stage_of_cause(
     place: &PlaceAccount,
 ) -> (LossStage, String) {
     let real = cause.strength.sigmas * share_of_known((sheet, cause), oracle, account);
-    if real < Strength::SIGMAS {
+    let is_shown = |known: PlaceTest| known.sigmas >= Strength::SIGMAS;
+    if real < Strength::SIGMAS && !place.with_known_noise.is_some_and(is_shown) {
         let words = format!("{real:.1} sigmas with the noise that the efforts have");
         return (LossStage::Judge, words);
     }
