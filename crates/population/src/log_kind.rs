@@ -71,7 +71,7 @@ log_kinds! {
     /// Positions and goals are -100 to 100 over the range of a joint; servos alone. Size: none.
     NormalisedUnits = "normalised_units", "log: normalised units";
     /// All signals are repeated in rows between their messages. Size: the share of rows that repeat the one before,
-    /// at random (messages of 100 Hz in rows of 500 or 1000 Hz).
+    /// at random (messages of at most 100 Hz in rows of 500 or 1000 Hz).
     HeldValues = "held_values", "log: held values";
     /// The log has few rows. Size: their rate in Hz (20, 30 or 50).
     LowRate = "low_rate", "log: low rate";
