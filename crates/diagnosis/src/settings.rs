@@ -34,6 +34,13 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// The same settings with the standard deviation of the inertial parameters of the links in errors of CAD (1).
+    pub(crate) fn with_body_errors(&self, body_errors: f64) -> Self {
+        let mut settings = self.clone();
+        settings.thresholds.priors.body_errors = body_errors;
+        settings
+    }
+
     /// The settings, if every one of them can be used.
     ///
     /// # Errors

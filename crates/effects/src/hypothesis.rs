@@ -66,6 +66,18 @@ impl Hypothesis {
         self.traits().is_some_and(|n| n.imitable)
     }
 
+    /// Whether it is what every arm has at every joint: dry and viscous friction, the inertia of a rotor, a torque
+    /// offset.
+    pub fn is_everyday(self) -> bool {
+        matches!(
+            self.kind,
+            EffectKind::CoulombFriction
+                | EffectKind::ViscousFriction
+                | EffectKind::RotorInertia
+                | EffectKind::TorqueOffset
+        )
+    }
+
     /// The joint of an effect that lies between its encoder and its link, where a second encoder at the link shows
     /// it.
     pub fn before_the_link(self) -> Option<usize> {

@@ -5,6 +5,7 @@ use crate::regression::blocks::Block;
 use crate::regression::gram::Grams;
 use crate::regression::noise::Noise;
 use crate::regression::problem::{HypothesisSet, Problem};
+use crate::search::everyday::everyday;
 use crate::search::select::Selection;
 use crate::thresholds::Thresholds;
 
@@ -54,8 +55,28 @@ impl<'a> Dataset<'a> {
     }
 
     /// The hypotheses that the blocks `of` support, and the problem weighted by their residual noise.
+    ///
+    /// A search ends where no single change is better, so the answer depends on where it begins. Of the one that begins
+    /// with nothing and the one that begins with what every arm has, the answer with more evidence is taken, both
+    /// weighted by the noise of either.
     pub fn select_model(&self, of: &[usize]) -> (Problem<'a>, HypothesisSet) {
-        let (mut problem, mut model) = (self.problem(of), HypothesisSet::new());
+        let (of_none, from_none) = self.select_from(of, HypothesisSet::new());
+        let (of_all, from_everyday) = self.select_from(of, everyday(self.design));
+        let evidence = |problem: &Problem, model: &HypothesisSet| {
+            problem.fit(model).map_or(f64::NEG_INFINITY, |fit| fit.evidence)
+        };
+        let gain =
+            |problem: &Problem| evidence(problem, &from_everyday) - evidence(problem, &from_none);
+        if gain(&of_none) + gain(&of_all) > 0.0 {
+            (of_all, from_everyday)
+        } else {
+            (of_none, from_none)
+        }
+    }
+
+    /// The model that a search from the model `start` reaches.
+    fn select_from(&self, of: &[usize], start: HypothesisSet) -> (Problem<'a>, HypothesisSet) {
+        let (mut problem, mut model) = (self.problem(of), start);
         for _ in 0..ROUNDS {
             let next = self.selection(&problem).run(model.clone());
             let is_same = next == model;

@@ -1,9 +1,11 @@
 //! Which hypotheses the logs support: by evidence and held-out prediction, with one size that holds for all logs.
 
 pub(crate) mod accept;
+pub(crate) mod body_errors;
 pub(crate) mod causes;
 pub(crate) mod constancy;
 pub(crate) mod dataset;
+pub(crate) mod everyday;
 pub(crate) mod inputs;
 pub(crate) mod kept_nominal;
 pub(crate) mod paired_difference;
