@@ -3,7 +3,7 @@ use std::path::Path;
 
 use diagnosis::SearchAccount;
 use document::Document;
-use population::TruthSheet;
+use population::{EffortClass, TruthSheet};
 use serde::Deserialize;
 
 use crate::error::BenchmarkError;
@@ -20,7 +20,7 @@ const PASSED: f64 = 0.897_91;
 /// Noise of the efforts as the oracle of a trial takes it from the sensors.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct OracleEffortNoise {
-    /// Two-sided density of each joint ((N m)^2/Hz or N^2/Hz).
+    /// Two-sided density of each joint ((N m)^2/Hz or N^2/Hz); none where it is the known one.
     pub density: Vec<f64>,
 }
 
@@ -39,7 +39,8 @@ struct EffortSensors {
 }
 
 impl OracleEffortNoise {
-    /// Reads the scenario of a trial's folder:
+    /// Reads the scenario of a trial's folder. Where the effort is a command it has no densities: there the oracle
+    /// measures the noise in the logs themselves, so that it is the known one.
     ///
     /// ```text
     /// density = (deviation^2 + step^2 / 12) / rate of the log + (1e-4 scale)^2 / rate of the oracle
@@ -49,6 +50,9 @@ impl OracleEffortNoise {
     ///
     /// Those of reading it.
     pub fn read(folder: &Path, sheet: &TruthSheet) -> Result<Self, BenchmarkError> {
+        if sheet.corner.effort == EffortClass::Command {
+            return Ok(Self::default());
+        }
         let document = Document::read(folder.join("truth").join("scenario.toml"))?;
         let sensors = document.parse::<TruthScenario>()?.sensors;
         let joint = |(name, scale): (&String, &f64)| {
