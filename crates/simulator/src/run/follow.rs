@@ -94,14 +94,14 @@ pub(crate) fn follow(
         let time_s = (tick as f64 - lead_in as f64) * period_s;
         goals.advance(time_s.max(0.0));
         simulator.read(&mut reading)?;
-        feedback(gains, robot, goals.followed(), &reading, &mut command);
+        feedback(gains, robot, goals.of_loop(), &reading, &mut command);
         simulator.actuate(&command)?;
         let mut row = Reading::default();
         simulator.record(&reading, &mut row);
         let links = simulator.record_links(&reading);
         if tick >= lead_in {
             row.time_s = time_s;
-            let (command, reference) = (command.clone(), goals.sent().clone());
+            let (command, reference) = (command.clone(), goals.of_log().clone());
             rows.push(ControlRow { reading: row, links, command, reference });
             if (time_s + period_s).floor() > time_s.floor() {
                 on_second();
