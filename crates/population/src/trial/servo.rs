@@ -145,7 +145,7 @@ impl ServoDraw {
             let mut late = run.clone();
             for (joint, gain) in late.joints.iter_mut().zip(&gains) {
                 let goal = joint.desired_position.as_deref().unwrap_or(&joint.position);
-                let followed = followed(&run.time, goal, 1e-3 * self.delay_ms);
+                let followed = late_mean(&run.time, goal, 1e-3 * self.delay_ms);
                 joint.effort =
                     goal.iter().zip(followed).map(|(goal, mean)| gain.kp * (goal - mean)).collect();
             }
@@ -166,7 +166,7 @@ impl ServoDraw {
         for run in held_out {
             for joint in &mut run.joints {
                 if let Some(goal) = &mut joint.desired_position {
-                    *goal = followed(&run.time, goal, 1e-3 * self.delay_ms);
+                    *goal = late_mean(&run.time, goal, 1e-3 * self.delay_ms);
                 }
             }
         }
@@ -194,7 +194,7 @@ pub(crate) fn whole_part(rate_hz: f64, near_hz: f64) -> f64 {
 }
 
 /// Mean over the time of each row of a goal that is held from row to row and followed late.
-fn followed(time: &[f64], goal: &[f64], delay_s: f64) -> Vec<f64> {
+fn late_mean(time: &[f64], goal: &[f64], delay_s: f64) -> Vec<f64> {
     let (Some(first), Some(last)) = (time.first(), time.last()) else { return Vec::new() };
     let row_s = (last - first) / (time.len().max(2) - 1) as f64;
     let mut sums = vec![0.0; time.len()];
@@ -249,7 +249,7 @@ mod tests {
         let time: Vec<f64> = (0..50).map(|k| 0.1 * f64::from(k)).collect();
         let goal: Vec<f64> = time.iter().map(|t| 2.0 * t).collect();
         for delay_s in [0.0, 0.04, 0.23] {
-            let late = followed(&time, &goal, delay_s);
+            let late = late_mean(&time, &goal, delay_s);
             for (late, goal) in late.iter().zip(&goal).skip(5) {
                 let expected = goal - 2.0 * (delay_s + 0.05);
                 assert!((late - expected).abs() < 1e-9, "{late}, not {expected}, {delay_s} s");
@@ -262,7 +262,7 @@ mod tests {
     fn a_staircase_that_is_logged_in_full_is_not_late() {
         let time: Vec<f64> = (0..500).map(|k| 0.01 * f64::from(k)).collect();
         let goal: Vec<f64> = (0..500).map(|k| f64::from(k / 10)).collect();
-        let late = followed(&time, &goal, 0.0);
+        let late = late_mean(&time, &goal, 0.0);
         let mean = goal.iter().zip(&late).map(|(goal, late)| goal - late).sum::<f64>() / 500.0;
         // Slope 10 a second, half a row of 0.01 s.
         assert!((mean - 10.0 * 0.005).abs() < 1e-3, "{mean}");

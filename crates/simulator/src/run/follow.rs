@@ -105,14 +105,14 @@ pub(crate) fn follow(
         goals.advance(time_s.max(0.0));
         simulator.read(&mut reading)?;
         let state = (tick >= lead_in).then(|| ArmState::of(simulator));
-        feedback(gains, robot, goals.followed(), &reading, &mut command);
+        feedback(gains, robot, goals.of_loop(), &reading, &mut command);
         simulator.actuate(&command)?;
         let mut row = Reading::default();
         simulator.record(&reading, &mut row);
         let links = simulator.record_links(&reading);
         if let Some(state) = state {
             row.time_s = time_s;
-            let (command, reference) = (command.clone(), goals.sent().clone());
+            let (command, reference) = (command.clone(), goals.of_log().clone());
             rows.push(ControlRow { reading: row, links, command, reference, state });
             if (time_s + period_s).floor() > time_s.floor() {
                 on_second();

@@ -38,12 +38,12 @@ impl<'a> Goals<'a> {
     }
 
     /// What is sent at this time, and logged.
-    pub fn sent(&self) -> &State {
+    pub fn of_log(&self) -> &State {
         &self.sent
     }
 
     /// What the loops follow at this time.
-    pub fn followed(&self) -> &State {
+    pub fn of_loop(&self) -> &State {
         self.held.as_ref().unwrap_or(&self.sent)
     }
 }
