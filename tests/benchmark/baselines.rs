@@ -100,8 +100,8 @@ fn friction_in_the_simulator_is_named_and_predicted_and_nothing_in_a_clean_arm()
     assert_eq!(words(&named), Vec::<String>::new());
 }
 
-/// Both errors of an arm that is as described are noise of the effort in one band, at the same samples: that of a fit
-/// differs by what its 40 parameters take of it.
+/// Both errors of an arm that is as described are noise in one band, at the same samples: of the effort, and of the
+/// encoders through the inertia, of which a fit to noisy accelerations takes some. Another band would be a factor.
 #[test]
 fn errors_of_a_baseline_and_of_a_robot_are_of_one_band() {
     let clean = |seed: u64| {
@@ -116,7 +116,7 @@ fn errors_of_a_baseline_and_of_a_robot_are_of_one_band() {
     let of_robot = robot_error(&wam(), None, &test).map(all).unwrap();
     println!("{by_hand:.5?} and {of_robot:.5?}");
     for (a, b) in by_hand.iter().zip(&of_robot) {
-        assert!((a / b - 1.0).abs() < 0.15, "{by_hand:?} and {of_robot:?}");
+        assert!((a / b - 1.0).abs() < 0.25, "{by_hand:?} and {of_robot:?}");
     }
 }
 

@@ -85,7 +85,7 @@ impl Measure {
             Self::WorseThanByHand => one.fair_prediction()?.worse_than_by_hand(),
             Self::BodyOff => some(one.bodies_off()),
             Self::Contradicting => some(one.contradicting()),
-            Self::Misled => one.misled(),
+            Self::Misled => one.is_misled(),
         }
     }
 }

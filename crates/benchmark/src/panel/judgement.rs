@@ -90,7 +90,7 @@ impl Judgement {
     }
 
     /// The causes that a right answer names: the visible ones, and none in spoilt logs.
-    pub fn asked(&self) -> impl Iterator<Item = &JudgedCause> {
+    pub fn causes_to_name(&self) -> impl Iterator<Item = &JudgedCause> {
         self.visible().filter(|_| !self.is_spoilt())
     }
 
@@ -123,7 +123,7 @@ impl Judgement {
     /// times too large thus weighs as much as the whole effort.
     pub fn recall_by_torque(&self) -> Fraction {
         let weight = |cause: &JudgedCause| cause.strength.torque.min(1.0);
-        Fraction::of(self.asked().map(|cause| (cause.is_named(), weight(cause))))
+        Fraction::of(self.causes_to_name().map(|cause| (cause.is_named(), weight(cause))))
     }
 
     /// Share of the visible causes that the diagnosis rules out, with a reason that is then untrue.
@@ -157,8 +157,8 @@ impl Judgement {
     }
 
     /// Share of the intervals of determined sizes that hold the truth, where a finding names a visible cause.
-    pub fn covered(&self) -> Fraction {
-        let sizes = self.asked().flat_map(|cause| &cause.sizes);
+    pub fn coverage(&self) -> Fraction {
+        let sizes = self.causes_to_name().flat_map(|cause| &cause.sizes);
         let estimates = sizes.filter_map(|size| size.estimate.as_ref());
         Fraction::of(estimates.filter(|e| e.determined).map(|e| (e.covers, 1.0)))
     }
@@ -201,7 +201,7 @@ impl Judgement {
 
     /// Whether spoilt logs are taken for what they are not: another fault is told, or none and the logs are closed.
     /// `None` where they are not spoilt.
-    pub fn misled(&self) -> Option<bool> {
+    pub fn is_misled(&self) -> Option<bool> {
         let misleads = |one: &JudgedSpoiling| !one.outcome.is_right();
         self.is_spoilt().then(|| self.spoilings.iter().any(misleads))
     }
@@ -209,7 +209,7 @@ impl Judgement {
     /// Whether every visible cause is named and, where all causes are known, no false one is; of spoilt logs, whether
     /// nobody is misled. `None` for logs whose causes are unknown.
     pub fn right(&self) -> Option<bool> {
-        if let Some(misled) = self.misled() {
+        if let Some(misled) = self.is_misled() {
             return Some(!misled);
         }
         let right = || self.visible().all(JudgedCause::is_named);
@@ -255,7 +255,7 @@ impl Judgement {
     }
 
     fn of_causes(&self, is: impl Fn(&JudgedCause) -> bool) -> Fraction {
-        Fraction::of(self.asked().map(|cause| (is(cause), 1.0)))
+        Fraction::of(self.causes_to_name().map(|cause| (is(cause), 1.0)))
     }
 
     fn of_findings(&self, weight: impl Fn(&JudgedFinding) -> f64) -> Option<Fraction> {

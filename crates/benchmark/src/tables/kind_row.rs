@@ -48,12 +48,12 @@ impl KindRow {
         let own = |effect: EffectKind| kind.is_none_or(|kind| kind == effect);
         let rate = |is: fn(&JudgedCause) -> bool| {
             let of = |one: &Judgement| {
-                let causes = one.asked().filter(|cause| own(cause.at.effect));
+                let causes = one.causes_to_name().filter(|cause| own(cause.at.effect));
                 Fraction::of(causes.map(|cause| (is(cause), 1.0)))
             };
             Rate::over(judgements.iter().map(of))
         };
-        let visible = judgements.iter().flat_map(Judgement::asked);
+        let visible = judgements.iter().flat_map(Judgement::causes_to_name);
         let visible: Vec<&JudgedCause> = visible.filter(|cause| own(cause.at.effect)).collect();
         let sizes = visible.iter().flat_map(|cause| &cause.sizes);
         let estimates: Vec<&Estimated> = sizes.filter_map(|size| size.estimate.as_ref()).collect();

@@ -121,7 +121,7 @@ impl PanelRow {
             joints_worse_than_by_hand: joints(Prediction::joints_worse_than_by_hand),
             sizes_told: rate(Judgement::sizes_told),
             sharpness: median(all.iter().flat_map(|one| one.sharpness()).collect()),
-            covered: rate(Judgement::covered),
+            covered: rate(Judgement::coverage),
             bodies_off: rate(Judgement::bodies_off),
             ruled_out: rate(Judgement::ruled_out),
             contradicting: rate(Judgement::contradicting),

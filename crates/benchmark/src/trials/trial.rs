@@ -74,7 +74,7 @@ impl Trial {
         }
         let urdf = loaded.urdf_path.canonicalize().unwrap_or_else(|_| loaded.urdf_path.clone());
         let nominal = loaded.to_toml(&loaded.robot, &urdf.display().to_string())?;
-        write_text(&made(folder, NOMINAL)?.join("robot.toml"), &nominal)?;
+        write_text(&subfolder(folder, NOMINAL)?.join("robot.toml"), &nominal)?;
         let truth = Blinded::open(&folder.join(TRUTH))?;
         let given = read_runs(&folder.join(LOGS), &loaded.robot)?;
         let without = self.hidden.without();
@@ -114,11 +114,11 @@ impl Trial {
         for (name, runs) in [(LOGS, &runs), (HELD_OUT, &held_out)] {
             for run in runs {
                 let file = format!("{}.{}", run.name, LogFormat::Parquet.extension());
-                logs::write_parquet(&made(folder, name)?.join(file), run)?;
+                logs::write_parquet(&subfolder(folder, name)?.join(file), run)?;
             }
         }
         let truth = Simulation { runs: Vec::new(), ..simulation };
-        Ok(simulator::write(&made(folder, TRUTH)?, scenario, &truth, LogFormat::Parquet)?)
+        Ok(simulator::write(&subfolder(folder, TRUTH)?, scenario, &truth, LogFormat::Parquet)?)
     }
 
     /// Whether a folder holds all logs of this scenario: `truth.json` is written last.
@@ -140,7 +140,7 @@ impl Trial {
 }
 
 /// A folder inside that of a trial, made where it is missing.
-fn made(folder: &Path, name: &str) -> Result<PathBuf, BenchmarkError> {
+fn subfolder(folder: &Path, name: &str) -> Result<PathBuf, BenchmarkError> {
     let inside = folder.join(name);
     std::fs::create_dir_all(&inside).map_err(unusable(folder))?;
     Ok(inside)
