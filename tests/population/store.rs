@@ -60,6 +60,21 @@ fn a_trial_is_made_once_and_again_when_it_is_damaged() {
     assert!(files(&first.folder) == whole);
 }
 
+/// The oracle needs nothing but the files of a trial, and an entry with a new sheet is whole.
+#[test]
+fn a_sheet_that_is_worked_out_anew_is_the_one_that_was_made() {
+    let root = tempfile::tempdir().unwrap();
+    let store = Store::open(root.path()).unwrap();
+    let spec = PopulationSpec { spoilt: 1.0, ..short(ArmClass::Hobby, [2, 2]) };
+    let made = store.trial(&spec, 4).unwrap();
+    let whole = files(&made.folder);
+    let mut told = Vec::new();
+    store.sheets_again(&mut |folder| told.push(folder.to_owned())).unwrap();
+    assert_eq!(told, [made.folder.clone()]);
+    assert!(files(&made.folder) == whole);
+    assert_eq!(store.trial(&spec, 4).unwrap().came, Came::WasThere);
+}
+
 #[test]
 fn what_a_kill_left_half_made_is_no_trial() {
     let root = tempfile::tempdir().unwrap();

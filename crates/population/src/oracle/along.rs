@@ -1,7 +1,7 @@
 use nalgebra::DMatrix;
 use robot::Robot;
 use simulator::effects::EffectSpec;
-use simulator::{ActingLaws, EffortSource, LawRow, PositionSide, TrueRun};
+use simulator::{ActingLaws, EffortSource, LawRow, Plant, PositionSide, TrueRun};
 
 use crate::error::PopulationError;
 use crate::moving::{Moving, body_torque};
@@ -54,6 +54,9 @@ pub(crate) enum Which {
 /// ```
 ///
 /// Friction is that of joints that move: one that stands or creeps is held by anything up to its level.
+///
+/// A wrong gain is counted on what a model says of the arm, not on friction and what else is hidden: without a friction
+/// no gain makes one, so that the two must not pass for one another.
 struct Beyond {
     effort: DMatrix<f64>,
     q: DMatrix<f64>,
@@ -88,7 +91,8 @@ fn step_s(run: &TrueRun) -> f64 {
 }
 
 impl Beyond {
-    fn along(laws: &mut ActingLaws, run: &TrueRun, sensing: Sensing) -> Self {
+    /// With these gains of the joints.
+    fn along(laws: &mut ActingLaws, gains: &[f64], run: &TrueRun, sensing: Sensing) -> Self {
         let robot = laws.plant().robot.clone();
         let joints = robot.joint_count();
         let motions = Motions::of(run, joints);
@@ -99,8 +103,7 @@ impl Beyond {
             for (j, link) in robot.links().iter().enumerate() {
                 let lost =
                     if sensing.effort == EffortSource::Commanded { row.lost[j] } else { 0.0 };
-                let drive = &link.actuator;
-                beyond.effort[(i, j)] = drive.torque_gain * tau[j] + drive.torque_offset + lost;
+                beyond.effort[(i, j)] = gains[j] * tau[j] + link.actuator.torque_offset + lost;
                 beyond.q[(i, j)] = row.reading.q[j];
                 beyond.qd[(i, j)] = row.reading.qd[j];
             }
@@ -143,22 +146,26 @@ fn torques(
     tau
 }
 
-/// What a model of the arm says along a motion that is read.
-fn model(robot: &Robot, read: &Beyond, step_s: f64, sensing: Sensing) -> DMatrix<f64> {
-    let qdd = slopes(&read.qd, step_s);
-    let mut all = DMatrix::zeros(read.q.nrows(), read.q.ncols());
+/// What a model of the arm says along a motion: a row a sample, a column a joint.
+fn model(
+    robot: &Robot,
+    q: &DMatrix<f64>,
+    qd: &DMatrix<f64>,
+    step_s: f64,
+    sensing: Sensing,
+) -> DMatrix<f64> {
+    let qdd = slopes(qd, step_s);
+    let mut all = DMatrix::zeros(q.nrows(), q.ncols());
     for i in 0..all.nrows() {
         let of = |m: &DMatrix<f64>| m.row(i).iter().copied().collect::<Vec<f64>>();
-        let tau = torque(robot, &of(&read.q), &of(&read.qd), &of(&qdd));
+        let tau = torque(robot, &of(q), &of(qd), &of(&qdd));
         for (j, link) in robot.links().iter().enumerate() {
             let drive = &link.actuator;
             all[(i, j)] = tau[j];
             if let Some(balance) = drive.counterbalance {
-                all[(i, j)] += balance.amplitude * (read.q[(i, j)] + balance.phase).sin();
+                all[(i, j)] += balance.amplitude * (q[(i, j)] + balance.phase).sin();
             }
-            if sensing.sees_drives() {
-                all[(i, j)] += drive.viscous * read.qd[(i, j)];
-            } else {
+            if !sensing.sees_drives() {
                 all[(i, j)] -= drive.rotor_inertia * qdd[(i, j)];
             }
         }
@@ -198,18 +205,30 @@ pub(crate) fn added_torque(
     let mut torque = Vec::with_capacity(runs.len());
     for (run, seen) in runs.iter().zip(seen) {
         let (mut all, mut others) = (laws(hidden)?, laws(&rest)?);
-        let with = Beyond::along(&mut all, run, sensing);
+        let [gains, others_gains] = [&all, &others].map(|laws| gains_of(laws.plant()));
+        let with = Beyond::along(&mut all, &gains, run, sensing);
         let stiffer = stiffened(run, &all, &others, sensing);
-        let without = Beyond::along(&mut others, stiffer.as_ref().unwrap_or(run), sensing);
+        let without = Beyond::along(&mut others, &gains, stiffer.as_ref().unwrap_or(run), sensing);
         let mut added = with.effort.clone() - &without.effort;
+        let model = |q: &DMatrix<f64>, qd: &DMatrix<f64>| model(robot, q, qd, step_s(run), sensing);
+        if gains != others_gains {
+            let motions = Motions::of(run, robot.joint_count());
+            let known = model(&motions.q, &motions.qd);
+            for (j, (all, others)) in gains.iter().zip(&others_gains).enumerate() {
+                added.column_mut(j).axpy(all - others, &known.column(j), 1.0);
+            }
+        }
         if with.q != without.q || with.qd != without.qd {
-            let known = &others.plant().robot;
-            let step_s = step_s(run);
-            added -= model(known, &with, step_s, sensing) - model(known, &without, step_s, sensing);
+            added -= model(&with.q, &with.qd) - model(&without.q, &without.qd);
         }
         torque.push(means(&added, seen.thinned));
     }
     Ok(torque)
+}
+
+/// Reported effort per unit of torque of each joint.
+fn gains_of(plant: &Plant) -> Vec<f64> {
+    plant.robot.links().iter().map(|link| link.actuator.torque_gain).collect()
 }
 
 /// The run as it would be behind the transmissions of fewer effects, where they differ: what the encoder does not

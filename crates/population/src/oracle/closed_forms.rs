@@ -312,10 +312,10 @@ fn bristles_turn_over_their_way() {
 
 #[test]
 fn drives_scale_shift_and_ripple() {
-    // effort = g (tau + friction) + o, so that the offset is itself, and the gain its part beyond one.
+    // effort = g tau + o: the offset is itself, and the gain its part beyond one of what a model says, no friction.
     let offset = effect(r#"torque_offset = { joint = "lift", offset_nm = -0.4 }"#);
     let gain = effect(r#"torque_constant = { joint = "lift", gain = 1.2 }"#);
-    let drive = |[q, qd, qdd]: [f64; 3]| boom([q, qd, qdd]) + ROTOR * qdd + DRY * sign(qd);
+    let drive = |x: [f64; 3]| boom(x) + ROTOR * x[2];
     for case in [MOTOR, COMMAND] {
         assert_is(&offset, case, 1, &|_, _| -0.4);
         assert_is(&gain, case, 1, &|_, x| 0.2 * drive(x));
@@ -341,7 +341,7 @@ fn what_an_encoder_reads_is_what_the_model_is_told() {
     let ratio = effect(r#"transmission_ratio = { joint = "lift", ratio = 1.1 }"#);
     assert_is(&ratio, MOTOR, 1, &|_, [q, qd, qdd]| {
         let told = |part: f64| boom([q / part, qd / part, qdd / part]) + ROTOR * qdd / part;
-        1.1 * (told(1.0) + DRY * sign(qd)) - told(1.1) - DRY * sign(qd)
+        1.1 * told(1.0) - told(1.1)
     });
     let eccentric = stranger(
         r#"eccentric_encoder = { joint = "lift", eccentricity_rad = 0.05, phase_rad = 1.0 }"#,

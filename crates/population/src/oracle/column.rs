@@ -1,4 +1,7 @@
+use catalogue::EffectKind;
 use nalgebra::DMatrix;
+use robot::Robot;
+use simulator::Truth;
 
 /// The torque that something adds along the motion: for every run a row a sample, a column a joint.
 pub(crate) type Torque = Vec<DMatrix<f64>>;
@@ -29,4 +32,18 @@ pub(crate) enum StandIn {
     Body(usize),
     /// Nothing but itself.
     Itself,
+}
+
+impl StandIn {
+    /// What a hidden cause is itself among the stand-ins, so that it does not explain itself away.
+    pub fn of(truth: &Truth, robot: &Robot) -> Self {
+        let joint = truth.joint.as_deref().and_then(|name| robot.joint_index(name));
+        match (truth.effect, joint) {
+            (EffectKind::CoulombFriction, Some(j)) => Self::Dry(j),
+            (EffectKind::ViscousFriction, Some(j)) => Self::Viscous(j),
+            (EffectKind::TorqueOffset, Some(j)) => Self::Offset(j),
+            (EffectKind::RotorInertia, Some(j)) => Self::Rotor(j),
+            _ => Self::Itself,
+        }
+    }
 }

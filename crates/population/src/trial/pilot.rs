@@ -145,7 +145,9 @@ impl<'a> Pilot<'a> {
         let (robot, sensing) = (self.robot(), oracle.sensing);
         let arm = Arm { robot, sensing, base: self.base, hidden: &hidden };
         let torque = added_torque(arm, &along, &oracle.seen, which).ok()?;
-        let column = TorqueColumn { stands_for: StandIn::Itself, torque, prior: 0.0 };
+        let of = |cause: &EffectSpec| StandIn::of(&cause.truth(), robot);
+        let stands_for = hidden.causes.first().map_or(StandIn::Itself, of);
+        let column = TorqueColumn { stands_for, torque, prior: 0.0 };
         let columns: Vec<TorqueColumn> =
             std::iter::once(column).chain(pilot.stand_ins.iter().cloned()).collect();
         strengths(&oracle.seen, &columns, 1, &oracle.noise, &pilot.scales).pop()

@@ -102,20 +102,16 @@ fn judge(
     hidden: Hidden<Truth>,
     strange: Hidden<StrangerTruth>,
 ) -> (Vec<TrueCause>, Vec<TrueStranger>) {
-    let itself = |torque: Vec<DMatrix<f64>>| TorqueColumn {
-        stands_for: StandIn::Itself,
-        torque,
-        prior: 0.0,
-    };
+    let column = |stands_for, torque| TorqueColumn { stands_for, torque, prior: 0.0 };
     let count = differ.len() + hidden.len() + strange.len();
     let (mut places, mut columns): (Vec<_>, Vec<_>) =
         differ.into_iter().map(|d| ((d.role, d.truth), d.column)).unzip();
     for (truth, torque) in hidden {
+        columns.push(column(StandIn::of(&truth, robot), torque));
         places.push((CauseRole::Hidden, truth));
-        columns.push(itself(torque));
     }
     let (strange, torques): (Vec<_>, Vec<_>) = strange.into_iter().unzip();
-    columns.extend(torques.into_iter().map(itself));
+    columns.extend(torques.into_iter().map(|torque| column(StandIn::Itself, torque)));
     columns.extend(stand_ins(robot, &runs.seen));
     let mut strengths = strengths(&runs.seen, &columns, count, &runs.noise, scales).into_iter();
     let mut causes: Vec<TrueCause> = places
