@@ -54,7 +54,7 @@ pub(crate) fn compare_encoders(
     let inputs = Inputs { nominal, robot, settings, log, design, inadequate };
     inputs.with_dataset(|dataset| {
         let causes = inputs.find_causes(dataset, &Silent)?;
-        let Findings { found, ruled_out, .. } = inputs.findings(dataset, &causes);
+        let Findings { found, ruled_out, .. } = inputs.findings(dataset, &causes)?;
         Ok(Some(SecondEncoder {
             found: found.into_iter().map(|f| f.finding).collect(),
             ruled_out,
