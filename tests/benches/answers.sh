@@ -4,6 +4,9 @@
 #   tests/benches/answers.sh PROGRAM STORE > before.txt    # ... and of the other build > after.txt
 #   diff before.txt after.txt
 #
+# With WITHOUT_REASONS=1 the words in which hypotheses are ruled out take no part: for a change that may alter reasons and
+# must alter no finding, size or verdict.
+#
 # A line an answer: the SHA-256 of its diagnosis.json without the provenance, which holds the version, paths and the
 # command, and what was diagnosed: the demo, the recorded sets of PLUMBLINE_DATA (../shared/data where it is unset) and
 # every trial of STORE, a folder that `plumbline-bench work --store` has filled.
@@ -15,11 +18,19 @@ data=${PLUMBLINE_DATA:-../shared/data}
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 
+# FILE: an answer without its provenance, which is the last entry.
+print_answer() {
+    if [[ ${WITHOUT_REASONS:-0} == 1 ]]; then
+        sed -e '/^  "provenance": {/,$d' -e '/^  "ruled_out": \[/,/^  \]/{/^ *"because": /d}' "$1"
+    else
+        sed '/^  "provenance": {/,$d' "$1"
+    fi
+}
+
 # NAME FOLDER: what lies in FOLDER is the answer NAME.
 print_hash() {
     if [[ -f $2/diagnosis.json ]]; then
-        # The provenance is the last entry.
-        printf '%s  %s\n' "$(sed '/^  "provenance": {/,$d' "$2/diagnosis.json" | sha256sum | cut -d' ' -f1)" "$1"
+        printf '%s  %s\n' "$(print_answer "$2/diagnosis.json" | sha256sum | cut -d' ' -f1)" "$1"
     else
         printf 'no answer  %s\n' "$1"
     fi

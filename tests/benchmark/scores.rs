@@ -131,7 +131,10 @@ fn spoilt_trials_leave_all_other_scores_and_have_a_table() {
     spoilt.strangers[0].name = "log: spikes".to_owned();
     let one = judge(&spoilt, diagnosis(Verdict::Explained, named()));
     assert_eq!((one.precision(), one.recall().items), (None, 0));
-    assert_eq!((one.false_assurance(), one.false_alarm(), one.is_misled()), (None, None, Some(true)));
+    assert_eq!(
+        (one.false_assurance(), one.false_alarm(), one.is_misled()),
+        (None, None, Some(true))
+    );
     assert_eq!((one.right(), one.fair_prediction().is_none()), (Some(false), true));
     assert!(one.strangers.is_empty());
     // What an oracle does not see spoils nothing.

@@ -15,6 +15,7 @@ mod grafts;
 mod held_out;
 mod hidden;
 mod intervals;
+mod ledger;
 mod long;
 mod poor;
 mod protocols;

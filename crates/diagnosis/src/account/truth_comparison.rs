@@ -10,6 +10,7 @@ use crate::result::EffectAt;
 use crate::search::accept::Accepted;
 use crate::search::constancy::Variation;
 use crate::search::inputs::Inputs;
+use crate::search::refusal::Refusal;
 use crate::search::select::Selection;
 use crate::signals::along::REGRESSION_RATE;
 
@@ -53,7 +54,7 @@ impl Inputs<'_> {
         self.with_dataset(|dataset| {
             let all: Vec<usize> = (0..dataset.blocks.len()).collect();
             let found = self.search(dataset, &all)?;
-            let (accepted, _) = self.accept_best_twins(dataset, &found)?;
+            let accepted = self.accept_best_twins(dataset, &found)?;
             let searched = dataset.selection(&found.problem);
             let names = self.true_names(&searched, truth);
             let of_truth = self.weighted_by(&found.problem, &names);
@@ -164,7 +165,9 @@ impl TruthSearch<'_> {
     fn fate(&self, g: usize) -> SearchFate {
         if self.accepted.model.contains(&g) {
             SearchFate::Kept
-        } else if let Some(Variation { with, .. }) = self.accepted.inconstant.get(&g) {
+        } else if let Some(Refusal::Varies(Variation { with, .. })) =
+            self.accepted.ledger.refusal(g)
+        {
             SearchFate::SizeVaries(with.unwrap_or("joint").to_owned())
         } else if self.model.contains(&g) {
             SearchFate::Dropped

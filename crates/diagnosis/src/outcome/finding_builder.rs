@@ -9,11 +9,9 @@ use crate::regression::linear_fit::LinearFit;
 use crate::regression::problem::{HeldOutResiduals, HypothesisSet};
 use crate::regression::uncertainty::Uncertainty;
 use crate::result::Finding;
-use crate::search::accept::Inconstant;
-use crate::search::kept_nominal::KeptNominal;
+use crate::search::ledger::Ledger;
 use crate::search::rivals::rivals;
 use crate::search::select::Selection;
-use crate::search::twins::Separated;
 use crate::signals::response::Response;
 
 /// A finding, and the fall of the error at each joint that it causes.
@@ -37,12 +35,8 @@ struct Errors<'a> {
 pub(crate) struct FindingBuilder<'a> {
     pub selection: &'a Selection<'a>,
     pub model: &'a HypothesisSet,
-    /// Findings, each with a twin that does worse in its place.
-    pub separated: &'a Separated,
-    /// Effects that are excluded because their sizes would have to vary.
-    pub inconstant: &'a Inconstant,
-    /// Joints that keep their description.
-    pub kept_nominal: &'a KeptNominal,
+    /// What refuses every other hypothesis.
+    pub ledger: &'a Ledger,
 }
 
 impl FindingBuilder<'_> {
@@ -153,7 +147,7 @@ impl FindingBuilder<'_> {
     /// All effects that explain as much as finding `g`, each once.
     fn not_separable_from(&self, g: usize, fitted: &LinearFit) -> Vec<usize> {
         let mut rivals = rivals(self.selection, self.model, g);
-        rivals.retain(|&h| !self.separated.contains(&(g, h)));
+        rivals.retain(|&h| !self.ledger.is_worse_twin(g, h));
         rivals.extend(self.one_for_several(g));
         rivals.extend(self.plain_parts(g, &rivals));
         rivals.extend(self.hidden_beside(g, fitted));

@@ -1,3 +1,5 @@
+use logs::LogError;
+
 use crate::outcome::finding_builder::{FindingBuilder, FindingWithFall};
 use crate::result::RuledOut;
 use crate::search::causes::Causes;
@@ -13,13 +15,14 @@ pub(crate) struct Findings {
 }
 
 impl Inputs<'_> {
-    /// Builds the findings of `causes`.
-    pub fn findings(&self, dataset: &Dataset, causes: &Causes) -> Findings {
-        let Causes { problem, model, fitted, separated, inconstant, kept_nominal } = causes;
+    /// Builds the findings of `causes`, and the ledger of all other hypotheses.
+    pub fn findings(&self, dataset: &Dataset, causes: &Causes) -> Result<Findings, LogError> {
+        let Causes { problem, model, fitted, .. } = causes;
         let selection = &dataset.selection(problem);
-        let builder = FindingBuilder { selection, model, separated, inconstant, kept_nominal };
+        let ledger = &self.ledger_of(selection, causes)?;
+        let builder = FindingBuilder { selection, model, ledger };
         let found = builder.findings(&fitted.last_fit(self.first_fit(problem, model, fitted)));
         let unseen_friction = builder.unseen_friction();
-        Findings { found, ruled_out: builder.rule_out_others(), unseen_friction }
+        Ok(Findings { found, ruled_out: builder.rule_out_others(), unseen_friction })
     }
 }

@@ -10,6 +10,7 @@ pub(crate) mod held_out;
 pub(crate) mod hold;
 pub(crate) mod limit_finding;
 pub(crate) mod prediction;
+pub(crate) mod refusal_words;
 pub(crate) mod ruled_out;
 pub(crate) mod second_encoder;
 pub(crate) mod size;

@@ -10,11 +10,11 @@ use crate::progress::DiagnosisProgress;
 use crate::regression::blocks::Fold;
 use crate::regression::fitted_model::{FittedModel, fit_model};
 use crate::regression::problem::{HypothesisSet, Problem};
-use crate::search::accept::Inconstant;
 use crate::search::causes::Causes;
 use crate::search::dataset::Dataset;
 use crate::search::inputs::Inputs;
 use crate::search::kept_nominal::{KeptNominal, joints_predicted_worse};
+use crate::search::ledger::Ledger;
 use crate::search::search_result::SearchResult;
 
 impl Inputs<'_> {
@@ -36,7 +36,7 @@ impl Inputs<'_> {
         let by_fold: Vec<SearchResult> =
             by_run.folds.par_iter().map(search).collect::<Result<_, LogError>>()?;
         let gain = |kept_nominal: &KeptNominal, doubted: &BTreeSet<usize>| {
-            let exclusions = Exclusions { inconstant: &causes.inconstant, kept_nominal, doubted };
+            let exclusions = Exclusions { ledger: &causes.ledger, kept_nominal, doubted };
             self.gain_without(exclusions, dataset, by_run, &by_fold)
         };
         let mut kept_nominal = KeptNominal::default();
@@ -97,7 +97,7 @@ impl Inputs<'_> {
 #[derive(Clone, Copy)]
 struct Exclusions<'a> {
     /// Effects whose sizes would have to vary over all blocks.
-    inconstant: &'a Inconstant,
+    ledger: &'a Ledger,
     kept_nominal: &'a KeptNominal,
     /// Joints at which the unrestricted searches predict worse than the description.
     doubted: &'a BTreeSet<usize>,
@@ -107,7 +107,7 @@ impl Exclusions<'_> {
     /// A model without the excluded effects.
     fn remaining(self, problem: &Problem, model: &HypothesisSet) -> HypothesisSet {
         let mut remaining = self.kept_nominal.remaining(problem, model);
-        remaining.retain(|g| !self.inconstant.contains_key(g));
+        remaining.retain(|g| !self.ledger.varies(*g));
         remaining
     }
 

@@ -7,7 +7,6 @@ use crate::outcome::finding_builder::FindingBuilder;
 use crate::regression::fit::{Complement, Fit};
 use crate::regression::problem::Problem;
 use crate::result::RuledOut;
-use crate::search::constancy::Variation;
 
 impl FindingBuilder<'_> {
     /// Every hypothesis that is not a finding, with the smallest size that the logs would have shown.
@@ -23,7 +22,7 @@ impl FindingBuilder<'_> {
         let group = &problem.design.groups[g];
         let rotation =
             group.hypothesis.joint().is_none_or(|j| robot.links()[j].joint.kind.is_rotation());
-        let (sharpest, because) = self.judge(g, fit);
+        let sharpest = self.sharpest_of(g, fit);
         let (weight, size) = sharpest.map_or((0, None), |(weight, size)| (weight, Some(size)));
         let (index, smallest_detectable) = parameter_of(group.hypothesis.kind, weight, size);
         let parameter = &group.hypothesis.kind.entry().parameters[index];
@@ -32,7 +31,7 @@ impl FindingBuilder<'_> {
             parameter: parameter.name,
             smallest_detectable,
             unit: if rotation { parameter.unit } else { parameter.unit_prismatic },
-            because,
+            because: self.words_for_refusal(g, sharpest.is_some()),
         }
     }
 
@@ -73,56 +72,15 @@ impl FindingBuilder<'_> {
         )
     }
 
-    /// The parameter that the logs show best with its smallest detectable size, and the reason why the hypothesis is
-    /// not a finding.
-    fn judge(&self, g: usize, fit: &Fit) -> (Option<(usize, f64)>, String) {
+    /// The parameter that the logs show best, with its smallest detectable size.
+    fn sharpest_of(&self, g: usize, fit: &Fit) -> Option<(usize, f64)> {
         let problem = self.selection.problem;
         let columns = problem.new_columns(self.model, g);
         if columns.is_empty() {
-            return (None, "a finding already changes the same numbers".to_owned());
+            return None;
         }
         let complement = fit.complement(&problem.info, &columns, &problem.design.prior);
-        let Some(sharpest) =
-            self.sharpest(g, &columns, &standard_errors(problem, fit, &complement))
-        else {
-            return (None, "these logs cannot show it".to_owned());
-        };
-        (Some(sharpest), self.reason(g, fit))
-    }
-
-    /// Why a hypothesis whose size the logs would show is not a finding: the first test of the search that it fails.
-    fn reason(&self, g: usize, fit: &Fit) -> String {
-        let (selection, problem) = (self.selection, self.selection.problem);
-        let gain = selection.evidence_gain(self.model, fit, g);
-        let least = selection.least_evidence(g);
-        let larger = selection.with(self.model, g);
-        if let Some(variation) = self.inconstant.get(&g) {
-            self.words_for_variation(variation)
-        } else if self.kept_nominal.drops(problem.design, g) && gain > 0.0 {
-            "what was fitted here predicts efforts that took no part worse than the description"
-                .to_owned()
-        } else if selection.is_excluded(self.model, g) {
-            "a finding changes the same numbers by another name".to_owned()
-        } else if gain < least {
-            format!("it adds {gain:.1} to the log evidence, {least:.0} are needed")
-        } else if !selection.is_possible(&larger, g) {
-            "its best size is not physically possible".to_owned()
-        } else if !selection.pays(&problem.hold_out(self.model), &larger, g) {
-            "it adds nothing on held-out data that counts".to_owned()
-        } else {
-            "the search ended with other causes that do its work".to_owned()
-        }
-    }
-
-    /// The reason against an effect whose size would have to vary.
-    fn words_for_variation(&self, Variation { rms, with, joint }: &Variation) -> String {
-        let name = &self.selection.robot.links()[*joint].joint.name;
-        let with = with
-            .map_or_else(|| format!("at {name}"), |signal| format!("with the {signal} of {name}"));
-        format!(
-            "its size would have to vary by {:.0} % {with}, and that of a cause is one",
-            100.0 * rms
-        )
+        self.sharpest(g, &columns, &standard_errors(problem, fit, &complement))
     }
 
     /// Index and smallest detectable size of the parameter whose standard error is the smallest share of its prior;

@@ -47,7 +47,7 @@ pub(crate) fn compare_encoders(
     let compare = |inputs: &Inputs| {
         inputs.with_dataset(|dataset| {
             let causes = inputs.find_causes(dataset, &Silent)?;
-            let Findings { found, ruled_out, .. } = inputs.findings(dataset, &causes);
+            let Findings { found, ruled_out, .. } = inputs.findings(dataset, &causes)?;
             Ok(SecondEncoder {
                 found: found.into_iter().map(|f| f.finding).collect(),
                 ruled_out,

@@ -49,7 +49,7 @@ impl Inputs<'_> {
         let left = gain.held_out_residuals(&by_run);
         let gap = by_run
             .held_out_residuals(|_, run, j| self.design.runs[run].joints[j].residual().collect());
-        let Findings { found, ruled_out, unseen_friction } = self.findings(dataset, &causes);
+        let Findings { found, ruled_out, unseen_friction } = self.findings(dataset, &causes)?;
         let extended = self.without_trial_shapes(causes.fitted.robot.clone());
         let hypotheses = causes.problem.design.groups.len();
         let second_encoder =

@@ -1,12 +1,11 @@
 use effects::{EffectQuantity, Hypothesis, Weights};
 use nalgebra::{DMatrix, DVector};
-use robot::Robot;
 use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
 
 use crate::regression::extend_robot::extend_robot;
 use crate::regression::fit::{Fit, covariance, pick};
 use crate::regression::linear_fit::LinearFit;
-use crate::regression::problem::{HypothesisSet, Problem};
+use crate::regression::problem::Problem;
 use crate::result::Estimate;
 use crate::thresholds::sizes::SizeThresholds;
 
@@ -136,14 +135,14 @@ impl Uncertainty {
         self.t * (noise + share * variance(&self.unnamed)).max(0.0).sqrt()
     }
 
-    /// Whether a change of the weights of some columns is inside their 95 per cent region, and so may be zero:
+    /// How far a change of the weights of some columns is from none, and the limit of their 95 per cent region:
     ///
     /// ```text
-    /// change' C^-1 change / max(1, trace(C^-1 C_blocks) / k) < chi^2_k(0.95)
+    /// chi2 = change' C^-1 change / max(1, trace(C^-1 C_blocks) / k),  limit = chi^2_k(0.95)
     /// ```
     ///
-    /// with `C` of the likelihood and `k` columns.
-    fn may_be_none(&self, columns: &[usize], change: &DVector<f64>) -> bool {
+    /// with `C` of the likelihood and `k` columns. `None` where a covariance is not finite.
+    pub fn chi2_and_limit(&self, columns: &[usize], change: &DVector<f64>) -> Option<[f64; 2]> {
         let place: Vec<usize> =
             columns.iter().filter_map(|k| self.columns.iter().position(|c| c == k)).collect();
         let sd = |i: usize| self.likelihood[(place[i], place[i])].sqrt();
@@ -153,13 +152,14 @@ impl Uncertainty {
         };
         let (likelihood, count) = (part(&self.likelihood), place.len());
         if count != change.len() || likelihood.iter().any(|v| !v.is_finite()) {
-            return false;
+            return None;
         }
         let scaled = DVector::from_fn(count, |i, _| change[i] / sd(i));
-        let Some(inverse) = likelihood.pseudo_inverse(ROUNDING).ok() else { return false };
-        let Ok(law) = ChiSquared::new(count as f64) else { return false };
+        let inverse = likelihood.pseudo_inverse(ROUNDING).ok()?;
+        let law = ChiSquared::new(count as f64).ok()?;
         let wider = ((&inverse * part(&self.blocks)).trace() / count as f64).max(1.0);
-        scaled.dot(&(&inverse * &scaled)) / wider < law.inverse_cdf(self.thresholds.region)
+        let chi2 = scaled.dot(&(&inverse * &scaled)) / wider;
+        Some([chi2, law.inverse_cdf(self.thresholds.region)])
     }
 
     /// Number of directions of a group's weights whose standard deviation is more than half that of the prior, and
@@ -185,71 +185,6 @@ impl Uncertainty {
         let wide = scaled.symmetric_eigenvalues().iter().filter(|v| **v > widest).count();
         (wide, own.len())
     }
-}
-
-/// A hypothesis whose size the logs do not determine, if there is one. Any of these holds for it:
-///
-/// - its size, together with all others, is physically impossible,
-/// - it has one weight, and the 95 per cent interval of every parameter contains the described value,
-/// - it is a body, and the 95 per cent region of its ten parameters contains the described ones,
-/// - it is an asymmetry or an excess near rest, and its interval contains zero.
-pub(crate) fn find_undetermined(
-    problem: &Problem,
-    model: &HypothesisSet,
-    fitted: &LinearFit,
-) -> Option<usize> {
-    let uncertainty = Uncertainty::of(fitted)?;
-    let robot = fitted.robot();
-    let share = uncertainty.thresholds.rounding;
-    let holds = |e: &Estimate| {
-        let rounding = share * (e.ci95[1] - e.ci95[0]);
-        (e.ci95[0] - rounding..=e.ci95[1] + rounding).contains(&e.nominal)
-    };
-    model.iter().copied().find(|&g| {
-        let group = &problem.design.groups[g];
-        let estimates = || uncertainty.estimates(fitted, group.hypothesis, &[]);
-        !group.hypothesis.is_sound(&robot, &problem.thresholds.priors)
-            || group.columns.len() == 1 && estimates().iter().all(holds)
-            || is_unchanged_body(&uncertainty, fitted, group.hypothesis)
-            || is_no_more_than_plain(&uncertainty, fitted, group.hypothesis)
-    })
-}
-
-/// Whether the 95 per cent region of a link's ten inertial parameters contains the described ones.
-fn is_unchanged_body(
-    uncertainty: &Uncertainty,
-    fitted: &LinearFit,
-    hypothesis: Hypothesis,
-) -> bool {
-    let design = fitted.problem.design;
-    let (Some(link), Some(group)) = (hypothesis.link(), design.find(hypothesis)) else {
-        return false;
-    };
-    let of = |robot: &Robot| DVector::from_column_slice(&robot.links()[link].inertia.parameters());
-    let change = of(&fitted.robot()) - of(fitted.nominal);
-    uncertainty.may_be_none(&design.groups[group].columns, &change)
-}
-
-/// Whether the weight that distinguishes an effect from a simpler one at the same place may be zero.
-fn is_no_more_than_plain(
-    uncertainty: &Uncertainty,
-    fitted: &LinearFit,
-    hypothesis: Hypothesis,
-) -> bool {
-    let design = fitted.problem.design;
-    let Some(columns) = design.find(hypothesis).map(|g| &design.groups[g].columns) else {
-        return false;
-    };
-    let may_be_none = |(weight, change): (usize, f64)| {
-        let column = columns.get(weight);
-        column.is_some_and(|&k| uncertainty.may_be_none(&[k], &DVector::from_element(1, change)))
-    };
-    let more = hypothesis.more_than_plain(
-        [fitted.nominal, &fitted.robot()],
-        &design.frame,
-        &design.priors,
-    );
-    more.into_iter().any(may_be_none)
 }
 
 /// Change of every quantity per unit of weight `k`, by a central difference.

@@ -1,125 +1,130 @@
-use std::collections::BTreeMap;
-
 use logs::LogError;
 
 use crate::error::DiagnosisError;
 use crate::regression::fitted_model::{FittedModel, fit_model};
-use crate::regression::problem::{HypothesisSet, Problem};
-use crate::regression::uncertainty::find_undetermined;
-use crate::search::constancy::{Variation, size_variation};
+use crate::regression::problem::HypothesisSet;
+use crate::search::change::Change;
 use crate::search::dataset::Dataset;
 use crate::search::inputs::Inputs;
+use crate::search::ledger::Ledger;
+use crate::search::refusal::Refusal;
 use crate::search::search_result::SearchResult;
 use crate::search::select::Selection;
-use crate::search::twins::{Separated, TwinDecision, Twins};
+use crate::search::state::{LastFit, Question, State};
+use crate::search::twins::Twins;
 
 /// Most rounds in which a finding is exchanged for a better twin.
 const EXCHANGES: usize = 4;
 
-/// Effects that are excluded because their sizes would have to vary.
-pub(crate) type Inconstant = BTreeMap<usize, Variation>;
-
-/// A model whose sizes are determined and constant, and the robot with it.
+/// A model whose sizes are determined and constant, the robot with it, and what left.
 #[derive(Debug)]
 pub(crate) struct Accepted {
     pub model: HypothesisSet,
     pub fitted: FittedModel,
-    pub inconstant: Inconstant,
+    pub ledger: Ledger,
 }
 
 impl Inputs<'_> {
-    /// Accepts effects, and exchanges findings for their twins until no twin does better. Also returns the twins that
-    /// do worse.
+    /// Takes changes that are admitted about the last fit until there is none, and exchanges findings for their twins
+    /// until no twin does better.
     pub fn accept_best_twins(
         &self,
         dataset: &Dataset,
         SearchResult { problem, model, fitted }: &SearchResult,
-    ) -> Result<(Accepted, Separated), DiagnosisError> {
+    ) -> Result<Accepted, DiagnosisError> {
         let selection = dataset.selection(problem);
         let twins = Twins { inputs: self, selection: &selection };
         let (model, fitted) = (model.clone(), fitted.clone());
-        let mut accepted = self.accept(&selection, model, fitted, Inconstant::new())?;
+        let mut accepted =
+            self.accept(&selection, Accepted { model, fitted, ledger: Ledger::default() })?;
         let mut left = EXCHANGES;
         loop {
-            let TwinDecision { separated, better } =
-                twins.decide(&accepted.model, &accepted.fitted)?;
-            let is_constant =
-                |m: &HypothesisSet| !m.iter().any(|g| accepted.inconstant.contains_key(g));
-            match better.filter(|better| left > 0 && is_constant(better)) {
-                Some(better) => {
-                    let fitted = fit_model(self.robot, &self.log, problem, &better)?;
-                    accepted = self.accept(&selection, better, fitted, accepted.inconstant)?;
-                }
-                None => return Ok((accepted, separated)),
-            }
+            let Accepted { model, fitted, ledger } = &mut accepted;
+            let better = twins.compare(model, fitted, ledger)?;
+            let Some(model) = better.filter(|m| left > 0 && !ledger.refuses_any(m)) else {
+                return Ok(accepted);
+            };
+            let fitted = fit_model(self.robot, &self.log, problem, &model)?;
+            accepted = self.accept(&selection, Accepted { model, fitted, ..accepted })?;
             left -= 1;
         }
     }
 
-    /// Removes effects whose size the data do not determine or that would have to vary. Each removed effect is
-    /// replaced by a simpler special case where one qualifies.
+    /// Removes effects whose size the data do not determine or that would have to vary. What is not determined is
+    /// replaced by a simpler special case where one is admitted.
     fn accept(
         &self,
         selection: &Selection,
-        mut model: HypothesisSet,
-        mut fitted: FittedModel,
-        mut inconstant: Inconstant,
+        Accepted { mut model, mut fitted, mut ledger }: Accepted,
     ) -> Result<Accepted, DiagnosisError> {
-        let problem = selection.problem;
-        let fit = |model: &HypothesisSet| fit_model(self.robot, &self.log, problem, model);
-        while let Some(plain) = selection.without_rare(&model) {
-            model = plain;
-            fitted = fit(&model)?;
-        }
         loop {
-            let first = self.first_fit(problem, &model, &fitted);
-            let unknown = find_undetermined(problem, &model, &fitted.last_fit(first));
-            if let Some(g) = unknown {
-                model = selection.without(&model, g);
-                fitted = fit(&model)?;
-                continue;
+            if let Some(next) = self.with_known_sizes(selection, &model, &fitted) {
+                model = next;
+            } else {
+                let varying = self.find_varying(selection, &model, &fitted, &ledger)?;
+                if varying.is_empty() {
+                    return Ok(Accepted { model, fitted, ledger });
+                }
+                for (g, refusal) in varying {
+                    model.remove(&g);
+                    ledger.refuse(g, refusal);
+                }
             }
-            let varying = self.find_inconstant(problem, &model, &inconstant, &fitted)?;
-            if varying.is_empty() {
-                return Ok(Accepted { model, fitted, inconstant });
-            }
-            model.retain(|g| !varying.contains_key(g));
-            inconstant.extend(varying);
-            fitted = fit(&model)?;
+            fitted = fit_model(self.robot, &self.log, selection.problem, &model)?;
         }
     }
 
-    /// The effects of a model whose sizes would have to vary, in a fit that includes the `inconstant` effects.
-    fn find_inconstant(
+    /// The model after one change: a hypothesis of few arms is simplified, or else one whose size is not determined
+    /// leaves.
+    fn with_known_sizes(
         &self,
-        problem: &Problem,
+        selection: &Selection,
         model: &HypothesisSet,
-        inconstant: &Inconstant,
         fitted: &FittedModel,
-    ) -> Result<Inconstant, LogError> {
-        let all: HypothesisSet = model.iter().chain(inconstant.keys()).copied().collect();
-        if inconstant.is_empty() {
-            return Ok(self.variations(problem, model, &all, fitted));
+    ) -> Option<HypothesisSet> {
+        let state = self.state(selection, model, fitted, Question::Sizes)?;
+        let simpler = |&g: &usize| selection.admit(&state, &selection.simplification(g)).ok();
+        if let Some(admitted) = model.iter().find_map(simpler) {
+            return Some(admitted.state.model);
         }
-        let fitted = fit_model(self.robot, &self.log, problem, &all)?;
-        Ok(self.variations(problem, model, &all, &fitted))
+        let leaves = |g: &&usize| selection.admit(&state, &Change::leave(**g)).is_ok();
+        model.iter().find(leaves).map(|&g| selection.without(model, g))
     }
 
-    /// How the sizes of a model's effects vary in the fit of a model with the effects `all`.
-    fn variations(
+    /// The effects of a model whose sizes would have to vary, in a fit that includes those of the ledger that do.
+    fn find_varying(
         &self,
-        problem: &Problem,
+        selection: &Selection,
         model: &HypothesisSet,
-        all: &HypothesisSet,
         fitted: &FittedModel,
-    ) -> Inconstant {
-        let last = fitted.last_fit(self.first_fit(problem, all, fitted));
-        let of = |&g: &usize| {
-            let group = &problem.design.groups[g];
-            let size: Vec<f64> = group.columns.iter().map(|&k| fitted.weights[k]).collect();
-            let own = last.problem.design.find(group.hypothesis)?;
-            Some((g, size_variation(&last, own, &size)?))
+        ledger: &Ledger,
+    ) -> Result<Vec<(usize, Refusal)>, LogError> {
+        let all: HypothesisSet = model.iter().copied().chain(ledger.varying()).collect();
+        let whole = match all == *model {
+            true => None,
+            false => Some(fit_model(self.robot, &self.log, selection.problem, &all)?),
         };
-        model.iter().filter_map(of).collect()
+        let fitted = whole.as_ref().unwrap_or(fitted);
+        let Some(state) = self.state(selection, &all, fitted, Question::Constancy) else {
+            return Ok(Vec::new());
+        };
+        let refusal = |&g: &usize| {
+            let admitted = selection.admit(&state, &Change::leave(g)).ok()?;
+            admitted.because.map(|because| (g, because))
+        };
+        Ok(model.iter().filter_map(refusal).collect())
+    }
+
+    /// A model with its last fit.
+    pub fn state<'b>(
+        &'b self,
+        selection: &'b Selection<'b>,
+        model: &'b HypothesisSet,
+        fitted: &'b FittedModel,
+        question: Question,
+    ) -> Option<State<'b>> {
+        let first = self.first_fit(selection.problem, model, fitted);
+        let last = LastFit::new(fitted.last_fit(first), &fitted.weights, question);
+        State::new(selection.problem, model.clone()).map(|state| state.about(last))
     }
 }

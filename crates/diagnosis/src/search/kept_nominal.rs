@@ -1,28 +1,32 @@
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use crate::columns::design::Design;
 use crate::regression::problem::{HypothesisSet, Problem};
 use crate::result::InverseGain;
+use crate::search::refusal::Refusal;
 
 /// Joints that keep their description because a fit predicts their held-out efforts worse.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct KeptNominal {
-    /// Indices of the joints.
-    pub joints: BTreeSet<usize>,
+    /// Indices of the joints, each with the held-out errors of the description and of the fit (RMS, N·m or N).
+    pub joints: BTreeMap<usize, [f64; 2]>,
     /// Causes of the search over all blocks that are removed for this reason.
     pub dropped: HypothesisSet,
 }
 
 impl KeptNominal {
-    /// Whether hypothesis `g` acts on these joints alone.
-    pub fn drops(&self, design: &Design, g: usize) -> bool {
-        let keep_theirs = |j: &usize| self.joints.contains(j);
-        design.groups[g].joints.iter().all(keep_theirs)
+    /// Why hypothesis `g` is refused, where it acts on these joints alone.
+    pub fn refusal(&self, design: &Design, g: usize) -> Option<Refusal> {
+        let errors = design.groups[g].joints.iter().map(|j| Some((*j, *self.joints.get(j)?)));
+        let all: Vec<(usize, [f64; 2])> = errors.collect::<Option<_>>()?;
+        let &(at, [described, fitted]) = all.first()?;
+        Some(Refusal::KeepsDescription { at, described, fitted })
     }
 
     /// A model without the hypotheses that act on these joints alone.
     pub fn remaining(&self, problem: &Problem, model: &HypothesisSet) -> HypothesisSet {
-        model.iter().copied().filter(|g| !self.drops(problem.design, *g)).collect()
+        let is_kept = |g: &usize| self.refusal(problem.design, *g).is_none();
+        model.iter().copied().filter(is_kept).collect()
     }
 
     /// Whether a cause at joint `j` was removed.
@@ -32,10 +36,11 @@ impl KeptNominal {
 
     /// The same with all other joints added that a fit predicts worse than the description; `None` if there are none.
     pub fn with_worse_joints(&self, gain: &InverseGain) -> Option<Self> {
-        let more = joints_predicted_worse(gain).filter(|j| !self.joints.contains(j));
+        let more = joints_predicted_worse(gain).filter(|j| !self.joints.contains_key(j));
+        let errors = |j: usize| (j, [gain.rms_before_nm[j], gain.rms_after_nm[j]]);
         let mut all = self.clone();
-        all.joints.extend(more);
-        (all != *self).then_some(all)
+        all.joints.extend(more.map(errors));
+        (all.joints.len() > self.joints.len()).then_some(all)
     }
 }
 
@@ -65,7 +70,7 @@ mod tests {
         let none = KeptNominal::default();
         let kept_nominal =
             none.with_worse_joints(&gain(&[1.0, 1.0, 0.0], &[0.5, 1.001, 0.0])).unwrap();
-        assert_eq!(kept_nominal.joints, BTreeSet::from([1]));
+        assert_eq!(kept_nominal.joints, BTreeMap::from([(1, [1.0, 1.001])]));
         assert_eq!(kept_nominal.with_worse_joints(&gain(&[1.0, 1.0], &[0.5, 1.001])), None);
     }
 }

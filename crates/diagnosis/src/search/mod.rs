@@ -1,15 +1,24 @@
 //! Which hypotheses the logs support: by evidence and held-out prediction, with one size that holds for all logs.
 
 pub(crate) mod accept;
+pub(crate) mod admit;
 pub(crate) mod body_errors;
 pub(crate) mod causes;
+pub(crate) mod change;
 pub(crate) mod constancy;
 pub(crate) mod dataset;
 pub(crate) mod everyday;
 pub(crate) mod inputs;
 pub(crate) mod kept_nominal;
+pub(crate) mod ledger;
+pub(crate) mod moves;
 pub(crate) mod paired_difference;
+pub(crate) mod refusal;
+pub(crate) mod refusals;
 pub(crate) mod rivals;
+pub(crate) mod rules;
 pub(crate) mod search_result;
 pub(crate) mod select;
+pub(crate) mod size_rules;
+pub(crate) mod state;
 pub(crate) mod twins;

@@ -1,6 +1,7 @@
 use crate::regression::problem::{HypothesisSet, Problem};
 use crate::search::paired_difference::PairedDifference;
 use crate::search::select::Selection;
+use crate::search::state::State;
 
 /// Hypotheses that explain the held-out data as well in place of `group`, block by block.
 pub(crate) fn rivals(selection: &Selection, model: &HypothesisSet, group: usize) -> Vec<usize> {
@@ -40,8 +41,9 @@ pub(crate) fn contenders(
     let much = problem.thresholds.search.rival_gain * (bare - problem.hold_out(model).deviance);
     let recovers = |h: usize| {
         let replaced = with_rival(problem, &without, group, h);
-        let left = selection.is_possible(&replaced, h).then(|| problem.hold_out(&replaced))?;
-        (bare - left.deviance > much).then_some((h, replaced))
+        let state = State::new(problem, replaced)?;
+        selection.is_possible(&state, h).ok()?;
+        (bare - state.held_out().deviance > much).then_some((h, state.model))
     };
     candidates.into_iter().filter_map(recovers).collect()
 }

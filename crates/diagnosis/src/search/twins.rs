@@ -1,13 +1,15 @@
-use std::collections::BTreeSet;
-
 use logs::LogError;
 
 use crate::regression::fitted_model::{FittedModel, fit_model};
 use crate::regression::problem::{HypothesisSet, Problem};
+use crate::search::admit::Admitted;
+use crate::search::change::Change;
 use crate::search::inputs::Inputs;
-use crate::search::paired_difference::PairedDifference;
+use crate::search::ledger::Ledger;
+use crate::search::refusal::Refusal;
 use crate::search::rivals::{contenders, with_rival};
 use crate::search::select::Selection;
+use crate::search::state::State;
 
 /// Twins are two effects with the same columns about the robot without them, such as a delay and a lag. They are
 /// compared about the robots that have one of them.
@@ -17,44 +19,33 @@ pub(crate) struct Twins<'a> {
     pub selection: &'a Selection<'a>,
 }
 
-/// Findings, each with a twin that does worse in its place.
-pub(crate) type Separated = BTreeSet<(usize, usize)>;
-
-/// The result of comparing all findings with their twins.
-#[derive(Debug, Default)]
-pub(crate) struct TwinDecision {
-    pub separated: Separated,
-    /// The model with the best twin in place of a finding, where it does better.
-    pub better: Option<HypothesisSet>,
-}
-
 impl Twins<'_> {
-    /// Compares every finding of a fitted model with its twins.
-    pub fn decide(
+    /// Compares every finding of a fitted model with its twins. Enters the twins that do worse in the ledger, and returns
+    /// the model with the best twin in place of a finding, where one does better.
+    pub fn compare(
         &self,
         model: &HypothesisSet,
         fitted: &FittedModel,
-    ) -> Result<TwinDecision, LogError> {
+        ledger: &mut Ledger,
+    ) -> Result<Option<HypothesisSet>, LogError> {
         let problem = self.selection.problem;
-        let errors = problem.thresholds.search.rival_errors;
+        ledger.keep_twins_of(&HypothesisSet::new());
+        let Some(state) = State::new(problem, model.clone()) else { return Ok(None) };
         let here = self.deviance(model, fitted);
-        let mut decision = TwinDecision::default();
-        let mut best = 0.0;
+        let mut best: Option<Admitted> = None;
         for (g, h) in self.pairs(model) {
-            let mut without = model.clone();
-            without.remove(&g);
-            let other = with_rival(problem, &without, g, h);
+            let other = with_rival(problem, &Change::leave(g).rest(model), g, h);
             let fitted = fit_model(self.inputs.robot, &self.inputs.log, problem, &other)?;
             let there = self.deviance(&other, &fitted);
-            let difference = PairedDifference::new(here.iter().copied().zip(there));
-            if difference.exceeds(errors) {
-                decision.separated.insert((g, h));
-            } else if difference.total < best {
-                best = difference.total;
-                decision.better = Some(other);
+            match self.selection.admit(&state, &Change::twin(g, h, [here.clone(), there])) {
+                Ok(next) if best.as_ref().is_none_or(|best| next.gain > best.gain) => {
+                    best = Some(next);
+                }
+                Err(refusal @ Refusal::WorseThanTwin { .. }) => ledger.refuse(h, refusal),
+                _ => {}
             }
         }
-        Ok(decision)
+        Ok(best.map(|admitted| admitted.state.model))
     }
 
     /// Findings and their twins.

@@ -1,0 +1,142 @@
+use effects::Hypothesis;
+
+use crate::regression::problem::HypothesisSet;
+use crate::search::admit::Admitted;
+use crate::search::change::Change;
+use crate::search::select::Selection;
+use crate::search::state::State;
+use crate::signals::response::Response;
+
+/// The changes that are proposed.
+impl<'a> Selection<'a> {
+    /// The admissible entry of most evidence: of one hypothesis, else of two.
+    pub fn best_entry(&self, state: &State<'a>) -> Option<State<'a>> {
+        let ranked = self.rank(&state.model, &state.fit);
+        let one = ranked.iter().find_map(|&g| self.admit(state, &Change::enter(&[g])).ok());
+        let two = || ranked.iter().find_map(|&g| self.best_pair_with(state, g));
+        one.or_else(two).map(|admitted| admitted.state)
+    }
+
+    /// The entry of `g` with a partner near it. `g` reduces a described parameter and does not predict better alone.
+    /// Described damping that is too large and missing Coulomb friction cancel, for example, so neither enters alone.
+    fn best_pair_with(&self, state: &State<'a>, g: usize) -> Option<Admitted<'a>> {
+        let one = State::new(self.problem, self.with(&state.model, g))?;
+        if !self.reduces_description(&one, g) {
+            return None;
+        }
+        let groups = &self.problem.design.groups;
+        let is_near = |h: &usize| groups[*h].joints.iter().any(|j| groups[g].joints.contains(j));
+        let partners = self.rank(&one.model, &one.fit).into_iter().filter(is_near);
+        let mut partners = partners.take(self.thresholds().partners);
+        partners.find_map(|h| self.admit(state, &Change::enter(&[g, h])).ok())
+    }
+
+    /// Whether `g`, at a joint, reduces a parameter that is described there.
+    fn reduces_description(&self, with: &State, g: usize) -> bool {
+        let design = self.problem.design;
+        let group = &design.groups[g];
+        let weights = with.fit.expand(design.width);
+        let is_less = |&k: &usize| weights[k] < 0.0 && design.bounds[k].0.is_finite();
+        group.hypothesis.joint().is_some() && group.columns.iter().any(is_less)
+    }
+
+    /// The admissible exchange of `g` for a neighbour of most evidence.
+    pub fn best_exchange(&self, state: &State<'a>, g: usize) -> Option<State<'a>> {
+        let rest = Change::leave(g).rest(&state.model);
+        let outside = self.neighbours(g).into_iter().filter(|h| !rest.contains(h));
+        let exchanges = outside.filter_map(|h| self.admit(state, &Change::exchange(g, h)).ok());
+        most_evident(exchanges).map(|admitted| admitted.state)
+    }
+
+    /// The admissible removal of most evidence.
+    pub fn best_removal(&self, state: &State<'a>) -> Option<State<'a>> {
+        let removals =
+            state.model.iter().filter_map(|&g| self.admit(state, &Change::leave(g)).ok());
+        most_evident(removals).map(|admitted| admitted.state)
+    }
+
+    /// A state after all its admissible simplifications: the inertia of the link behind a joint becomes its rotor
+    /// inertia, a gear ratio a torque constant, friction that grows with the load or differs with the direction Coulomb
+    /// friction, friction of shared motors that of each joint. Then one hypothesis with the same torque takes the place
+    /// of two: asymmetric friction that of Coulomb friction and a torque offset of at most half its level.
+    pub fn simplified(&self, mut state: State<'a>) -> State<'a> {
+        for g in state.model.clone() {
+            let change = self.simplification(g);
+            let rest = change.rest(&state.model);
+            if change.enter.iter().all(|plain| rest.contains(plain)) {
+                continue;
+            }
+            state = self.admit(&state, &change).map_or(state, |admitted| admitted.state);
+        }
+        for one in 0..self.problem.design.groups.len() {
+            let Some(two) = self.two_for_one(&state.model, one) else { continue };
+            let change = Change::simplify(&two, &[one]);
+            state = self.admit(&state, &change).map_or(state, |admitted| admitted.state);
+        }
+        state
+    }
+
+    /// The change of `g` into its simpler rivals.
+    pub fn simplification(&self, g: usize) -> Change {
+        Change::simplify(&[g], &self.simpler_than(g))
+    }
+
+    /// Findings of a joint that the hypothesis `one` may replace. `None` where another finding makes the level of the
+    /// friction vary.
+    fn two_for_one(&self, model: &HypothesisSet, one: usize) -> Option<Vec<usize>> {
+        let groups = &self.problem.design.groups;
+        let parts: Vec<Hypothesis> = groups[one].hypothesis.together();
+        let varies = |g: &usize| groups[*g].hypothesis.varies().is_some_and(|h| parts.contains(&h));
+        let two: Vec<usize> = parts.iter().map(|&part| self.find(part)).collect::<Option<_>>()?;
+        let are_there = !two.is_empty() && two.iter().all(|g| model.contains(g));
+        (are_there && !model.iter().any(varies)).then_some(two)
+    }
+
+    /// The model without `g`, and with the first special case of `g` that is then admitted: `g` excluded it before.
+    pub fn without(&self, model: &HypothesisSet, g: usize) -> HypothesisSet {
+        let smaller = Change::leave(g).rest(model);
+        let Some(state) = State::new(self.problem, smaller.clone()) else { return smaller };
+        let special_cases = self.special_cases_of(g);
+        let ranked = self.rank(&state.model, &state.fit).into_iter();
+        let mut entrants = ranked.filter(|h| special_cases.contains(h));
+        let entry = entrants.find_map(|h| self.admit(&state, &Change::enter(&[h])).ok());
+        entry.map_or(smaller, |admitted| admitted.state.model)
+    }
+
+    /// Special cases of `g`: its simpler rivals, the friction whose level it makes vary, and the hypotheses with
+    /// fewer weights that it excludes.
+    fn special_cases_of(&self, g: usize) -> Vec<usize> {
+        let groups = &self.problem.design.groups;
+        let own = &groups[g];
+        let part = |h: &usize| {
+            own.hypothesis.varies() == Some(groups[*h].hypothesis)
+                || own.hypothesis.excludes(groups[*h].hypothesis)
+                    && groups[*h].columns.len() < own.columns.len()
+        };
+        let parts = (0..groups.len()).filter(part);
+        self.simpler_than(g).into_iter().chain(parts).collect()
+    }
+
+    /// Hypotheses that share a joint with `g` and that the catalogue lists as confused with it. Between two encoders,
+    /// all hypotheses that share a joint.
+    pub fn neighbours(&self, g: usize) -> Vec<usize> {
+        let groups = &self.problem.design.groups;
+        let confused = groups[g].hypothesis.kind.entry().confused_with;
+        let all = self.problem.design.response == Response::Twist;
+        let mut near = self.at_the_joints_of(g);
+        near.retain(|&h| all || confused.contains(&groups[h].hypothesis.kind));
+        near
+    }
+
+    /// Every other hypothesis that shares a joint with `g`.
+    pub fn at_the_joints_of(&self, g: usize) -> Vec<usize> {
+        let groups = &self.problem.design.groups;
+        let shares = |h: &usize| groups[*h].joints.iter().any(|j| groups[g].joints.contains(j));
+        (0..groups.len()).filter(|h| *h != g && shares(h)).collect()
+    }
+}
+
+/// The change of most evidence; the first of several.
+fn most_evident<'a>(changes: impl Iterator<Item = Admitted<'a>>) -> Option<Admitted<'a>> {
+    changes.reduce(|best, next| if next.gain > best.gain { next } else { best })
+}
