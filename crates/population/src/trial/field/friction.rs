@@ -46,7 +46,7 @@ pub(crate) fn strong(
     runs: &[RunSpec],
     random: &mut ChaCha8Rng,
 ) -> Result<Vec<Option<f64>>, MotionError> {
-    let loads = planned(robot, runs)?;
+    let loads = planned_loads(robot, runs)?;
     let slides = |i: usize| robot.links()[i].joint.kind == JointKind::Prismatic;
     let most = |kind: bool| {
         let same = loads.iter().enumerate().filter(|(i, _)| slides(*i) == kind);
@@ -74,7 +74,7 @@ pub(crate) fn with_levels(everyday: Vec<Friction>, levels: &[Option<f64>]) -> Ve
     all
 }
 
-fn planned(robot: &Robot, runs: &[RunSpec]) -> Result<Vec<PlannedLoad>, MotionError> {
+fn planned_loads(robot: &Robot, runs: &[RunSpec]) -> Result<Vec<PlannedLoad>, MotionError> {
     let mut loads = vec![PlannedLoad::default(); robot.joint_count()];
     let (mut state, mut samples) = (State::default(), 0_u32);
     for run in runs {
