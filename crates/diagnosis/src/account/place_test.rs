@@ -2,8 +2,8 @@ use nalgebra::Cholesky;
 use serde::{Deserialize, Serialize};
 
 use crate::regression::problem::{HeldOutResiduals, HypothesisSet};
+use crate::search::model_state::ModelState;
 use crate::search::select::Selection;
-use crate::search::state::State;
 
 /// What the tests of the search say of one hypothesis beside a model.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -60,7 +60,7 @@ impl PlaceTest {
             evidence: finite(selection.evidence_gain(&bare, &fit, g)),
             least_evidence,
             sigmas: finite(square.max(0.0).sqrt()),
-            is_possible: State::new(problem, larger)
+            is_possible: ModelState::new(problem, larger)
                 .is_some_and(|state| selection.is_possible(&state, g).is_ok()),
             pays: selection.pays(&before, &after, g).is_ok(),
             fall: finite(largest_fall(selection, [&before, &after], g)),

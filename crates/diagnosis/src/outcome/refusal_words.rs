@@ -6,16 +6,18 @@ use crate::search::refusal::Refusal;
 use crate::signals::response::Response;
 
 impl FindingBuilder<'_> {
-    /// The entry of `g` in the ledger, in words. What adds too little and has no size that the logs would show is not
-    /// shown by them.
-    pub fn words_for_refusal(&self, g: usize, is_shown: bool) -> String {
+    /// The entry of `g` in the ledger, in words. What adds too little is not shown by logs that would show none of its
+    /// sizes.
+    pub fn words_for_refusal(&self, g: usize, smallest: Option<(usize, f64)>) -> String {
         let Some(refusal) = self.ledger.refusal(g) else {
             return "no rule refuses it: the search ended before it was asked beside these findings"
                 .to_owned();
         };
         match refusal {
             Refusal::NotShown => "these logs cannot show it".to_owned(),
-            Refusal::TooLittleEvidence { .. } | Refusal::AddsTooLittle { .. } if !is_shown => {
+            Refusal::TooLittleEvidence { .. } | Refusal::AddsTooLittle { .. }
+                if smallest.is_none() =>
+            {
                 "these logs cannot show it".to_owned()
             }
             Refusal::OtherName { of } => {

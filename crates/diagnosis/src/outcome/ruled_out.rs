@@ -31,7 +31,7 @@ impl FindingBuilder<'_> {
             parameter: parameter.name,
             smallest_detectable,
             unit: if rotation { parameter.unit } else { parameter.unit_prismatic },
-            because: self.words_for_refusal(g, sharpest.is_some()),
+            because: self.words_for_refusal(g, sharpest),
         }
     }
 

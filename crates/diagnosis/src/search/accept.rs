@@ -7,10 +7,10 @@ use crate::search::change::Change;
 use crate::search::dataset::Dataset;
 use crate::search::inputs::Inputs;
 use crate::search::ledger::Ledger;
+use crate::search::model_state::{LastFit, ModelState, SizeQuestion};
 use crate::search::refusal::Refusal;
 use crate::search::search_result::SearchResult;
 use crate::search::select::Selection;
-use crate::search::state::{LastFit, Question, State};
 use crate::search::twins::Twins;
 
 /// Most rounds in which a finding is exchanged for a better twin.
@@ -82,7 +82,7 @@ impl Inputs<'_> {
         model: &HypothesisSet,
         fitted: &FittedModel,
     ) -> Option<HypothesisSet> {
-        let state = self.state(selection, model, fitted, Question::Sizes)?;
+        let state = self.state(selection, model, fitted, SizeQuestion::Sizes)?;
         let simpler = |&g: &usize| selection.admit(&state, &selection.simplification(g)).ok();
         if let Some(admitted) = model.iter().find_map(simpler) {
             return Some(admitted.state.model);
@@ -105,7 +105,7 @@ impl Inputs<'_> {
             false => Some(fit_model(self.robot, &self.log, selection.problem, &all)?),
         };
         let fitted = whole.as_ref().unwrap_or(fitted);
-        let Some(state) = self.state(selection, &all, fitted, Question::Constancy) else {
+        let Some(state) = self.state(selection, &all, fitted, SizeQuestion::Constancy) else {
             return Ok(Vec::new());
         };
         let refusal = |&g: &usize| {
@@ -121,10 +121,10 @@ impl Inputs<'_> {
         selection: &'b Selection<'b>,
         model: &'b HypothesisSet,
         fitted: &'b FittedModel,
-        question: Question,
-    ) -> Option<State<'b>> {
+        question: SizeQuestion,
+    ) -> Option<ModelState<'b>> {
         let first = self.first_fit(selection.problem, model, fitted);
         let last = LastFit::new(fitted.last_fit(first), &fitted.weights, question);
-        State::new(selection.problem, model.clone()).map(|state| state.about(last))
+        ModelState::new(selection.problem, model.clone()).map(|state| state.about(last))
     }
 }

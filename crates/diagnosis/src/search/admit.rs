@@ -1,16 +1,16 @@
 use std::borrow::Cow;
 
 use crate::search::change::{Change, ChangeKind};
+use crate::search::model_state::ModelState;
 use crate::search::refusal::Refusal;
 use crate::search::rules::{does_better, is_more_evident, lowers_deviance};
 use crate::search::select::Selection;
-use crate::search::state::State;
 
 /// An admitted change.
 #[derive(Debug)]
 pub(crate) struct Admitted<'a> {
     /// The changed model.
-    pub state: State<'a>,
+    pub state: ModelState<'a>,
     /// Gain in log evidence (nats), by which admissible changes are ordered.
     pub gain: f64,
     /// Why the hypothesis that leaves no longer holds.
@@ -30,7 +30,7 @@ impl<'a> Selection<'a> {
     ///
     /// Where the state has a last fit, the rules about it are asked: a hypothesis leaves where its size is not determined
     /// or not constant, one of few arms is simplified, and twins are compared by their deviances.
-    pub fn admit(&self, state: &State<'a>, change: &Change) -> Result<Admitted<'a>, Refusal> {
+    pub fn admit(&self, state: &ModelState<'a>, change: &Change) -> Result<Admitted<'a>, Refusal> {
         match change.kind {
             ChangeKind::Enter => self.admit_entry(state, change),
             ChangeKind::Exchange => self.admit_exchange(state, change),
@@ -40,7 +40,11 @@ impl<'a> Selection<'a> {
     }
 
     /// What enters is asked in order, each beside those before it.
-    fn admit_entry(&self, state: &State<'a>, change: &Change) -> Result<Admitted<'a>, Refusal> {
+    fn admit_entry(
+        &self,
+        state: &ModelState<'a>,
+        change: &Change,
+    ) -> Result<Admitted<'a>, Refusal> {
         let mut gain = 0.0;
         let (mut model, mut fit) = (state.model.clone(), Cow::Borrowed(&state.fit));
         for &g in &change.enter {
@@ -54,7 +58,11 @@ impl<'a> Selection<'a> {
         Ok(Admitted { state: after, gain, because: None })
     }
 
-    fn admit_exchange(&self, state: &State<'a>, change: &Change) -> Result<Admitted<'a>, Refusal> {
+    fn admit_exchange(
+        &self,
+        state: &ModelState<'a>,
+        change: &Change,
+    ) -> Result<Admitted<'a>, Refusal> {
         let after = self.after(state, change)?;
         if let Some(deviances) = &change.deviances {
             let gain = does_better(change, deviances, self.thresholds().rival_errors)?;
@@ -71,7 +79,11 @@ impl<'a> Selection<'a> {
         Ok(Admitted { state: after, gain, because: None })
     }
 
-    fn admit_simpler(&self, state: &State<'a>, change: &Change) -> Result<Admitted<'a>, Refusal> {
+    fn admit_simpler(
+        &self,
+        state: &ModelState<'a>,
+        change: &Change,
+    ) -> Result<Admitted<'a>, Refusal> {
         let after = self.after(state, change)?;
         if state.last.is_some() {
             let (gain, because) = self.is_rare(change, &state.model)?;
@@ -83,7 +95,11 @@ impl<'a> Selection<'a> {
     }
 
     /// What leaves is admitted for the reason for which it would be refused.
-    fn admit_leaving(&self, state: &State<'a>, change: &Change) -> Result<Admitted<'a>, Refusal> {
+    fn admit_leaving(
+        &self,
+        state: &ModelState<'a>,
+        change: &Change,
+    ) -> Result<Admitted<'a>, Refusal> {
         let after = self.after(state, change)?;
         let loss = state.fit.evidence - after.fit.evidence;
         let holds = |&g: &usize| match &state.last {
@@ -99,8 +115,8 @@ impl<'a> Selection<'a> {
         Ok(Admitted { state: after, gain, because: Some(because) })
     }
 
-    fn after(&self, state: &State<'a>, change: &Change) -> Result<State<'a>, Refusal> {
-        let model = self.changed(&state.model, change);
-        State::new(self.problem, model).ok_or(Refusal::NotShown)
+    fn after(&self, state: &ModelState<'a>, change: &Change) -> Result<ModelState<'a>, Refusal> {
+        let model = self.apply(&state.model, change);
+        ModelState::new(self.problem, model).ok_or(Refusal::NotShown)
     }
 }

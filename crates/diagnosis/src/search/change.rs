@@ -16,7 +16,7 @@ pub(crate) enum ChangeKind {
 /// A change of a model: hypotheses that leave, then hypotheses that enter.
 ///
 /// What enters is in the order in which it is asked. Hypotheses that an entrant excludes leave too
-/// ([`Selection::changed`](crate::search::select::Selection::changed)).
+/// ([`Selection::apply`](crate::search::select::Selection::apply)).
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Change {
     pub kind: ChangeKind,

@@ -3,14 +3,14 @@ use effects::Hypothesis;
 use crate::regression::problem::HypothesisSet;
 use crate::search::admit::Admitted;
 use crate::search::change::Change;
+use crate::search::model_state::ModelState;
 use crate::search::select::Selection;
-use crate::search::state::State;
 use crate::signals::response::Response;
 
 /// The changes that are proposed.
 impl<'a> Selection<'a> {
     /// The admissible entry of most evidence: of one hypothesis, else of two.
-    pub fn best_entry(&self, state: &State<'a>) -> Option<State<'a>> {
+    pub fn best_entry(&self, state: &ModelState<'a>) -> Option<ModelState<'a>> {
         let ranked = self.rank(&state.model, &state.fit);
         let one = ranked.iter().find_map(|&g| self.admit(state, &Change::enter(&[g])).ok());
         let two = || ranked.iter().find_map(|&g| self.best_pair_with(state, g));
@@ -19,8 +19,8 @@ impl<'a> Selection<'a> {
 
     /// The entry of `g` with a partner near it. `g` reduces a described parameter and does not predict better alone.
     /// Described damping that is too large and missing Coulomb friction cancel, for example, so neither enters alone.
-    fn best_pair_with(&self, state: &State<'a>, g: usize) -> Option<Admitted<'a>> {
-        let one = State::new(self.problem, self.with(&state.model, g))?;
+    fn best_pair_with(&self, state: &ModelState<'a>, g: usize) -> Option<Admitted<'a>> {
+        let one = ModelState::new(self.problem, self.with(&state.model, g))?;
         if !self.reduces_description(&one, g) {
             return None;
         }
@@ -32,7 +32,7 @@ impl<'a> Selection<'a> {
     }
 
     /// Whether `g`, at a joint, reduces a parameter that is described there.
-    fn reduces_description(&self, with: &State, g: usize) -> bool {
+    fn reduces_description(&self, with: &ModelState, g: usize) -> bool {
         let design = self.problem.design;
         let group = &design.groups[g];
         let weights = with.fit.expand(design.width);
@@ -41,7 +41,7 @@ impl<'a> Selection<'a> {
     }
 
     /// The admissible exchange of `g` for a neighbour of most evidence.
-    pub fn best_exchange(&self, state: &State<'a>, g: usize) -> Option<State<'a>> {
+    pub fn best_exchange(&self, state: &ModelState<'a>, g: usize) -> Option<ModelState<'a>> {
         let rest = Change::leave(g).rest(&state.model);
         let outside = self.neighbours(g).into_iter().filter(|h| !rest.contains(h));
         let exchanges = outside.filter_map(|h| self.admit(state, &Change::exchange(g, h)).ok());
@@ -49,7 +49,7 @@ impl<'a> Selection<'a> {
     }
 
     /// The admissible removal of most evidence.
-    pub fn best_removal(&self, state: &State<'a>) -> Option<State<'a>> {
+    pub fn best_removal(&self, state: &ModelState<'a>) -> Option<ModelState<'a>> {
         let removals =
             state.model.iter().filter_map(|&g| self.admit(state, &Change::leave(g)).ok());
         most_evident(removals).map(|admitted| admitted.state)
@@ -59,7 +59,7 @@ impl<'a> Selection<'a> {
     /// inertia, a gear ratio a torque constant, friction that grows with the load or differs with the direction Coulomb
     /// friction, friction of shared motors that of each joint. Then one hypothesis with the same torque takes the place
     /// of two: asymmetric friction that of Coulomb friction and a torque offset of at most half its level.
-    pub fn simplified(&self, mut state: State<'a>) -> State<'a> {
+    pub fn simplify(&self, mut state: ModelState<'a>) -> ModelState<'a> {
         for g in state.model.clone() {
             let change = self.simplification(g);
             let rest = change.rest(&state.model);
@@ -95,7 +95,7 @@ impl<'a> Selection<'a> {
     /// The model without `g`, and with the first special case of `g` that is then admitted: `g` excluded it before.
     pub fn without(&self, model: &HypothesisSet, g: usize) -> HypothesisSet {
         let smaller = Change::leave(g).rest(model);
-        let Some(state) = State::new(self.problem, smaller.clone()) else { return smaller };
+        let Some(state) = ModelState::new(self.problem, smaller.clone()) else { return smaller };
         let special_cases = self.special_cases_of(g);
         let ranked = self.rank(&state.model, &state.fit).into_iter();
         let mut entrants = ranked.filter(|h| special_cases.contains(h));

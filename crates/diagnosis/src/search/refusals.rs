@@ -7,9 +7,9 @@ use crate::search::causes::Causes;
 use crate::search::change::Change;
 use crate::search::inputs::Inputs;
 use crate::search::ledger::Ledger;
+use crate::search::model_state::{ModelState, SizeQuestion};
 use crate::search::refusal::Refusal;
 use crate::search::select::Selection;
-use crate::search::state::{Question, State};
 
 impl Inputs<'_> {
     /// The ledger of an answer: every hypothesis outside it, with what refuses its entry.
@@ -22,7 +22,8 @@ impl Inputs<'_> {
         ledger.keep_twins_of(model);
         let here: HypothesisSet = model.iter().copied().chain(ledger.varying()).collect();
         let everywhere = here.union(&kept_nominal.dropped).copied().collect();
-        let state = |model| State::new(problem, model).map(|state| state.keeping(kept_nominal));
+        let state =
+            |model| ModelState::new(problem, model).map(|state| state.keeping(kept_nominal));
         let (Some(here), Some(everywhere)) = (state(here), state(everywhere)) else {
             return Ok(ledger);
         };
@@ -48,7 +49,7 @@ impl Inputs<'_> {
     fn refusal_of_entry<'a>(
         &self,
         selection: &Selection<'a>,
-        state: &State<'a>,
+        state: &ModelState<'a>,
         g: usize,
     ) -> Result<Option<Refusal>, LogError> {
         let model = match selection.admit(state, &Change::enter(&[g])) {
@@ -56,7 +57,7 @@ impl Inputs<'_> {
             Ok(admitted) => admitted.state.model,
         };
         let fitted = fit_model(self.robot, &self.log, selection.problem, &model)?;
-        let larger = self.state(selection, &model, &fitted, Question::Both);
+        let larger = self.state(selection, &model, &fitted, SizeQuestion::Both);
         let leaving = |change: Change| selection.admit(larger.as_ref()?, &change).ok()?.because;
         Ok(leaving(selection.simplification(g)).or_else(|| leaving(Change::leave(g))))
     }

@@ -1,7 +1,7 @@
 use crate::regression::problem::{HypothesisSet, Problem};
+use crate::search::model_state::ModelState;
 use crate::search::paired_difference::PairedDifference;
 use crate::search::select::Selection;
-use crate::search::state::State;
 
 /// Hypotheses that explain the held-out data as well in place of `group`, block by block.
 pub(crate) fn rivals(selection: &Selection, model: &HypothesisSet, group: usize) -> Vec<usize> {
@@ -41,7 +41,7 @@ pub(crate) fn contenders(
     let much = problem.thresholds.search.rival_gain * (bare - problem.hold_out(model).deviance);
     let recovers = |h: usize| {
         let replaced = with_rival(problem, &without, group, h);
-        let state = State::new(problem, replaced)?;
+        let state = ModelState::new(problem, replaced)?;
         selection.is_possible(&state, h).ok()?;
         (bare - state.held_out().deviance > much).then_some((h, state.model))
     };

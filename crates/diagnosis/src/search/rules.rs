@@ -3,10 +3,10 @@ use crate::regression::physical_inertias::physical_inertias;
 use crate::regression::problem::{HeldOutResiduals, HypothesisSet};
 use crate::search::change::Change;
 use crate::search::kept_nominal::KeptNominal;
+use crate::search::model_state::ModelState;
 use crate::search::paired_difference::PairedDifference;
 use crate::search::refusal::Refusal;
 use crate::search::select::Selection;
-use crate::search::state::State;
 
 /// The rules about the first fit, and of pairs of models. Each returns what decided against a change.
 impl Selection<'_> {
@@ -91,12 +91,12 @@ impl Selection<'_> {
     }
 
     /// The fitted weights of everything that enters are physically possible.
-    pub fn are_possible(&self, after: &State, change: &Change) -> Result<(), Refusal> {
+    pub fn are_possible(&self, after: &ModelState, change: &Change) -> Result<(), Refusal> {
         change.enter.iter().try_for_each(|&g| self.is_possible(after, g))
     }
 
     /// The fitted weights of `g` are physically possible.
-    pub fn is_possible(&self, state: &State, g: usize) -> Result<(), Refusal> {
+    pub fn is_possible(&self, state: &ModelState, g: usize) -> Result<(), Refusal> {
         let weights = state.fit.expand(self.problem.design.width);
         self.is_admissible(&weights, g)?;
         self.is_body(&state.model, g, &weights)
@@ -139,9 +139,9 @@ impl Selection<'_> {
     /// others at a joint of its own.
     pub fn predict_better(
         &self,
-        state: &State,
+        state: &ModelState,
         change: &Change,
-        after: &State,
+        after: &ModelState,
     ) -> Result<(), Refusal> {
         if let Some(&first) = change.enter.first() {
             self.pays(state.held_out(), after.held_out(), first)?;
@@ -152,7 +152,7 @@ impl Selection<'_> {
         change.enter.iter().try_for_each(|&g| {
             let others: Vec<usize> = change.enter.iter().copied().filter(|h| *h != g).collect();
             let beside = Change { enter: others, ..change.clone() };
-            let before = self.problem.hold_out(&self.changed(&state.model, &beside));
+            let before = self.problem.hold_out(&self.apply(&state.model, &beside));
             self.pays(&before, after.held_out(), g)
         })
     }
@@ -180,7 +180,12 @@ impl Selection<'_> {
     }
 
     /// A hypothesis of a model passes the rules for entering the model `without` it.
-    pub fn still_qualifies(&self, state: &State, without: &State, g: usize) -> Result<(), Refusal> {
+    pub fn still_qualifies(
+        &self,
+        state: &ModelState,
+        without: &ModelState,
+        g: usize,
+    ) -> Result<(), Refusal> {
         self.is_admissible(&state.fit.expand(self.problem.design.width), g)?;
         let (gain, least) = (state.fit.evidence - without.fit.evidence, self.least_evidence(g));
         if gain < least {
@@ -191,7 +196,11 @@ impl Selection<'_> {
 }
 
 /// The log evidence of a changed model is larger by more than `least` (nats). Returns by how much.
-pub(crate) fn is_more_evident(state: &State, after: &State, least: f64) -> Result<f64, Refusal> {
+pub(crate) fn is_more_evident(
+    state: &ModelState,
+    after: &ModelState,
+    least: f64,
+) -> Result<f64, Refusal> {
     let gain = after.fit.evidence - state.fit.evidence;
     if after.fit.evidence > state.fit.evidence + least {
         return Ok(gain);

@@ -6,7 +6,7 @@ use robot::Robot;
 use crate::regression::fit::Fit;
 use crate::regression::problem::{HypothesisSet, Problem};
 use crate::search::change::{Change, ChangeKind};
-use crate::search::state::State;
+use crate::search::model_state::ModelState;
 use crate::thresholds::search::SearchThresholds;
 
 /// Most rounds of adding, exchanging and removing hypotheses.
@@ -27,7 +27,7 @@ impl<'a> Selection<'a> {
     /// Takes admissible changes of the model `start`, those of most evidence first: hypotheses enter until none is
     /// admitted, then each is exchanged, then those that no longer hold leave. Simpler names come last.
     pub fn run(&self, start: HypothesisSet) -> HypothesisSet {
-        let Some(mut state) = State::new(self.problem, start.clone()) else { return start };
+        let Some(mut state) = ModelState::new(self.problem, start.clone()) else { return start };
         for _ in 0..ROUNDS {
             let before = state.model.clone();
             while let Some(next) = self.best_entry(&state) {
@@ -43,7 +43,7 @@ impl<'a> Selection<'a> {
                 break;
             }
         }
-        self.simplified(state).model
+        self.simplify(state).model
     }
 
     pub fn thresholds(&self) -> &SearchThresholds {
@@ -134,7 +134,7 @@ impl<'a> Selection<'a> {
     }
 
     /// The model after a change. Entrants put out what they exclude; simpler names do not.
-    pub fn changed(&self, model: &HypothesisSet, change: &Change) -> HypothesisSet {
+    pub fn apply(&self, model: &HypothesisSet, change: &Change) -> HypothesisSet {
         let mut changed = change.rest(model);
         if change.kind == ChangeKind::Simplify {
             changed.extend(change.enter.iter().copied());

@@ -4,18 +4,18 @@ use robot::Robot;
 use crate::regression::uncertainty::Uncertainty;
 use crate::result::Estimate;
 use crate::search::constancy::size_variation;
+use crate::search::model_state::{LastFit, SizeQuestion};
 use crate::search::refusal::Refusal;
 use crate::search::select::Selection;
-use crate::search::state::{LastFit, Question};
 
 /// The rules about the last fit, whose robot has the findings.
 impl Selection<'_> {
     /// The size of `g` is determined and constant, as far as it is asked.
     pub fn has_a_size(&self, last: &LastFit, g: usize) -> Result<(), Refusal> {
-        if last.question != Question::Constancy {
+        if last.question != SizeQuestion::Constancy {
             self.is_determined(last, g)?;
         }
-        if last.question != Question::Sizes {
+        if last.question != SizeQuestion::Sizes {
             self.is_constant(last, g)?;
         }
         Ok(())

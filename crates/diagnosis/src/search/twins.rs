@@ -6,10 +6,10 @@ use crate::search::admit::Admitted;
 use crate::search::change::Change;
 use crate::search::inputs::Inputs;
 use crate::search::ledger::Ledger;
+use crate::search::model_state::ModelState;
 use crate::search::refusal::Refusal;
 use crate::search::rivals::{contenders, with_rival};
 use crate::search::select::Selection;
-use crate::search::state::State;
 
 /// Twins are two effects with the same columns about the robot without them, such as a delay and a lag. They are
 /// compared about the robots that have one of them.
@@ -30,7 +30,7 @@ impl Twins<'_> {
     ) -> Result<Option<HypothesisSet>, LogError> {
         let problem = self.selection.problem;
         ledger.keep_twins_of(&HypothesisSet::new());
-        let Some(state) = State::new(problem, model.clone()) else { return Ok(None) };
+        let Some(state) = ModelState::new(problem, model.clone()) else { return Ok(None) };
         let here = self.deviance(model, fitted);
         let mut best: Option<Admitted> = None;
         for (g, h) in self.pairs(model) {

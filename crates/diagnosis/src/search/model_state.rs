@@ -10,7 +10,7 @@ use crate::search::kept_nominal::KeptNominal;
 
 /// Which rules about the last fit are asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Question {
+pub(crate) enum SizeQuestion {
     /// Whether sizes are determined.
     Sizes,
     /// Whether sizes are constant.
@@ -28,11 +28,11 @@ pub(crate) struct LastFit<'a> {
     /// The robot with the fitted changes.
     pub robot: Robot,
     pub uncertainty: Option<Uncertainty>,
-    pub question: Question,
+    pub question: SizeQuestion,
 }
 
 impl<'a> LastFit<'a> {
-    pub fn new(linear: LinearFit<'a>, first_weights: &'a [f64], question: Question) -> Self {
+    pub fn new(linear: LinearFit<'a>, first_weights: &'a [f64], question: SizeQuestion) -> Self {
         let (robot, uncertainty) = (linear.robot(), Uncertainty::of(&linear));
         Self { linear, first_weights, robot, uncertainty, question }
     }
@@ -40,7 +40,7 @@ impl<'a> LastFit<'a> {
 
 /// A model with its fits, about which changes are asked.
 #[derive(Debug)]
-pub(crate) struct State<'a> {
+pub(crate) struct ModelState<'a> {
     problem: &'a Problem<'a>,
     pub model: HypothesisSet,
     /// The fit about the robot without findings.
@@ -52,7 +52,7 @@ pub(crate) struct State<'a> {
     pub kept_nominal: Option<&'a KeptNominal>,
 }
 
-impl<'a> State<'a> {
+impl<'a> ModelState<'a> {
     /// A model and its first fit; `None` where the normal equations are not positive definite.
     pub fn new(problem: &'a Problem<'a>, model: HypothesisSet) -> Option<Self> {
         let fit = problem.fit(&model)?;
