@@ -4,11 +4,8 @@ use rand_chacha::ChaCha8Rng;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::arms::make::Make;
 use crate::corner::EffortClass;
 
-/// Least rate of a controller (Hz) where no arm of a class has one that fits the rate of a log.
-const LEAST_CONTROL_HZ: f64 = 100.0;
 /// Least and largest rate of a log (Hz).
 const RATES_HZ: [f64; 2] = [1.0, 10_000.0];
 /// Least and largest resolution of an encoder (bits a turn).
@@ -81,41 +78,4 @@ fn one<T: Copy>(list: &[T], random: &mut ChaCha8Rng) -> Option<T> {
     (!list.is_empty())
         .then(|| random.random_range(0..list.len()))
         .and_then(|k| list.get(k).copied())
-}
-
-/// Rate of the controller of an arm (Hz) that is logged at this rate: the least of its class of which the log has
-/// a whole part, else the least whole multiple of the log's from 100 Hz on.
-pub(crate) fn control_rate_hz(make: &Make, log_rate_hz: f64) -> f64 {
-    let fits = |rate: &f64| {
-        let rows = rate / log_rate_hz;
-        rows > 0.5 && (rows - rows.round()).abs() < 1e-9
-    };
-    let known = make.rates.iter().map(|[control, _]| *control).filter(fits);
-    let least = known.fold(f64::INFINITY, f64::min);
-    let whole = (LEAST_CONTROL_HZ / log_rate_hz).ceil().max(1.0) * log_rate_hz;
-    if least.is_finite() { least } else { whole }
-}
-
-#[cfg(test)]
-mod tests {
-    use crate::corner::ArmClass;
-
-    use super::*;
-
-    #[test]
-    fn a_controller_runs_at_a_whole_multiple_of_the_rate_of_its_log() {
-        for &class in ArmClass::ALL {
-            let make = Make::of(class);
-            for rate in [20.0, 30.0, 50.0, 100.0, 125.0, 250.0, 500.0, 1000.0, 2000.0, 5000.0] {
-                let rows = control_rate_hz(&make, rate) / rate;
-                assert!(rows >= 1.0 && (rows - rows.round()).abs() < 1e-9, "{class}: {rate}");
-                assert!(rows * rate >= LEAST_CONTROL_HZ, "{class}: {rate}");
-            }
-        }
-        let cobot = Make::of(ArmClass::Cobot);
-        assert_eq!(
-            [125.0, 5000.0, 30.0].map(|rate| control_rate_hz(&cobot, rate)),
-            [125.0, 5000.0, 120.0]
-        );
-    }
 }

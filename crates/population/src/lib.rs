@@ -14,6 +14,7 @@ mod corner;
 mod damaged;
 mod dice;
 mod error;
+mod hidden;
 mod instruments;
 mod log_kind;
 mod motions;

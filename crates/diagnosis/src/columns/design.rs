@@ -67,7 +67,7 @@ struct MotionAndReadings<'a> {
 impl Design {
     /// Evaluates every hypothesis about `robot` along the prepared runs.
     pub fn new(robot: &Robot, log: &Log) -> Result<Self, LogError> {
-        Self::of(robot, log, &included(robot, log))
+        Self::of(robot, log, &hypotheses_of(robot, log))
     }
 
     /// Evaluates the given hypotheses about `robot` along the prepared runs.
@@ -79,7 +79,7 @@ impl Design {
     pub fn of_shaped(shaped: &ShapedRobot, log: &Log) -> Result<Self, LogError> {
         let trial_gaps = shaped.trial_gaps.clone();
         let frame = Frame { trial_gaps, ..Frame::of_logs(log.prepared) };
-        Self::within(frame, &shaped.robot, log, &included(&shaped.robot, log))
+        Self::within(frame, &shaped.robot, log, &hypotheses_of(&shaped.robot, log))
     }
 
     fn within(
@@ -240,6 +240,6 @@ impl Design {
 }
 
 /// The hypotheses about a robot that a design of some logs includes.
-fn included(robot: &Robot, log: &Log) -> Vec<Hypothesis> {
+fn hypotheses_of(robot: &Robot, log: &Log) -> Vec<Hypothesis> {
     hypotheses(robot).into_iter().filter(|h| log.includes(*h)).collect()
 }

@@ -5,7 +5,7 @@ use simulator::{EffortSource, PositionSide};
 use crate::arms::make::Make;
 use crate::corner::{ArmClass, EffortClass};
 use crate::dice::{between, happens, one_of, weighted_index};
-use crate::instruments::{Instrument, control_rate_hz};
+use crate::instruments::Instrument;
 
 /// The loop of an arm and where its signals come from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,7 +33,7 @@ impl Electronics {
         let [control_rate_hz, log_rate_hz] =
             rates.get(weighted_index(random, &even)).copied().unwrap_or([500.0; 2]);
         let [control_rate_hz, log_rate_hz] = match instrument.log_rate_hz {
-            Some(rate) => [self::control_rate_hz(&make, rate), rate],
+            Some(rate) => [make.control_rate_hz(rate), rate],
             None => [control_rate_hz, log_rate_hz],
         };
         let [command, current] = match class {

@@ -1,5 +1,8 @@
 use crate::corner::ArmClass;
 
+/// Least rate of a controller (Hz) where no arm of a class has one that fits the rate of a log.
+const LEAST_CONTROL_HZ: f64 = 100.0;
+
 /// What arms of a class have in common.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Make {
@@ -32,6 +35,19 @@ pub(crate) struct Make {
 }
 
 impl Make {
+    /// Rate of the controller of an arm (Hz) that is logged at this rate: the least of its class of which the log has
+    /// a whole part, else the least whole multiple of the log's from 100 Hz on.
+    pub fn control_rate_hz(&self, log_rate_hz: f64) -> f64 {
+        let fits = |rate: &f64| {
+            let rows = rate / log_rate_hz;
+            rows > 0.5 && (rows - rows.round()).abs() < 1e-9
+        };
+        let known = self.rates.iter().map(|[control, _]| *control).filter(fits);
+        let least = known.fold(f64::INFINITY, f64::min);
+        let whole = (LEAST_CONTROL_HZ / log_rate_hz).ceil().max(1.0) * log_rate_hz;
+        if least.is_finite() { least } else { whole }
+    }
+
     /// What arms of a class have in common.
     pub(crate) fn of(class: ArmClass) -> Self {
         match class {
@@ -126,3 +142,25 @@ const WAM: Make = Make {
     rates: &[[500.0, 500.0], [500.0, 250.0], [500.0, 125.0]],
     ..COBOT
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_controller_runs_at_a_whole_multiple_of_the_rate_of_its_log() {
+        for &class in ArmClass::ALL {
+            let make = Make::of(class);
+            for rate in [20.0, 30.0, 50.0, 100.0, 125.0, 250.0, 500.0, 1000.0, 2000.0, 5000.0] {
+                let rows = make.control_rate_hz(rate) / rate;
+                assert!(rows >= 1.0 && (rows - rows.round()).abs() < 1e-9, "{class}: {rate}");
+                assert!(rows * rate >= LEAST_CONTROL_HZ, "{class}: {rate}");
+            }
+        }
+        let cobot = Make::of(ArmClass::Cobot);
+        assert_eq!(
+            [125.0, 5000.0, 30.0].map(|rate| cobot.control_rate_hz(rate)),
+            [125.0, 5000.0, 120.0]
+        );
+    }
+}

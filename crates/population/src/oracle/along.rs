@@ -4,12 +4,12 @@ use simulator::effects::EffectSpec;
 use simulator::{ActingLaws, EffortSource, LawRow, Plant, PositionSide, TrueRun};
 
 use crate::error::PopulationError;
+use crate::hidden::{HiddenThings, Which};
 use crate::moving::{Moving, body_torque};
 use crate::oracle::column::Torque;
 use crate::oracle::motion::{SeenRun, means, slopes};
 use crate::oracle::stand_ins::{dry, moves};
 use crate::rigid::torque;
-use crate::trial::hidden::HiddenThings;
 
 /// What a log's effort is and where its position is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,21 +27,12 @@ impl Sensing {
 
 /// Runs of an arm with all that is hidden in it.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Arm<'a> {
+pub(crate) struct HiddenArm<'a> {
     pub robot: &'a Robot,
     pub sensing: Sensing,
     /// Everyday friction.
     pub base: &'a [EffectSpec],
     pub hidden: &'a HiddenThings,
-}
-
-/// Which of several hidden things.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Which {
-    /// A cause, by number.
-    Cause(usize),
-    /// A stranger, by number.
-    Stranger(usize),
 }
 
 /// What a log would say along a motion, and what a model of the arm says along the motion that is read:
@@ -183,18 +174,18 @@ fn model(
 /// Behind a transmission that `k` bends, what the encoder reads is kept and the other side is where it would be
 /// without `k`. Skewed clocks are those of the log: `effort(t) - effort(t + skew)`.
 pub(crate) fn added_torque(
-    arm: Arm<'_>,
+    arm: HiddenArm<'_>,
     runs: &[TrueRun],
     seen: &[SeenRun],
     which: Which,
 ) -> Result<Torque, PopulationError> {
-    let Arm { robot, sensing, base, hidden } = arm;
+    let HiddenArm { robot, sensing, base, hidden } = arm;
     if let Which::Cause(k) = which
         && let EffectSpec::TimeSkew(skew) = &hidden.causes[k]
     {
         let joint = skew.joint.as_deref().and_then(|name| robot.joint_index(name));
         let late = |(run, seen): (&TrueRun, &SeenRun)| {
-            means(&skewed(run, 1e-3 * skew.skew_ms, joint), seen.thinned)
+            means(&shift_in_time(run, 1e-3 * skew.skew_ms, joint), seen.thinned)
         };
         return Ok(runs.iter().zip(seen).map(late).collect());
     }
@@ -207,7 +198,7 @@ pub(crate) fn added_torque(
         let (mut all, mut others) = (laws(hidden)?, laws(&rest)?);
         let [gains, others_gains] = [&all, &others].map(|laws| gains_of(laws.plant()));
         let with = Beyond::along(&mut all, &gains, run, sensing);
-        let stiffer = stiffened(run, &all, &others, sensing);
+        let stiffer = with_stiff_transmissions(run, &all, &others, sensing);
         let without = Beyond::along(&mut others, &gains, stiffer.as_ref().unwrap_or(run), sensing);
         let mut added = with.effort.clone() - &without.effort;
         let model = |q: &DMatrix<f64>, qd: &DMatrix<f64>| model(robot, q, qd, step_s(run), sensing);
@@ -237,7 +228,7 @@ fn gains_of(plant: &Plant) -> Vec<f64> {
 /// ```text
 /// q - theta = -(load / stiffness + gap / 2 sign(load)),   0 of a rigid one
 /// ```
-fn stiffened(
+fn with_stiff_transmissions(
     run: &TrueRun,
     all: &ActingLaws,
     others: &ActingLaws,
@@ -284,7 +275,7 @@ fn stiffened(
 }
 
 /// `effort(t) - effort(t + skew)` of one joint or all of them (N m or N), held beyond the ends.
-fn skewed(run: &TrueRun, skew_s: f64, joint: Option<usize>) -> DMatrix<f64> {
+fn shift_in_time(run: &TrueRun, skew_s: f64, joint: Option<usize>) -> DMatrix<f64> {
     let (rows, step_s) = (run.rows.len(), step_s(run));
     let last = rows.saturating_sub(1) as f64;
     DMatrix::from_fn(rows, run.log.joints.len(), |i, j| {

@@ -9,9 +9,9 @@ use simulator::effects::EffectSpec;
 use simulator::strangers::StrangerSpec;
 use simulator::{ArmState, EffortSource, PositionSide, TrueRow, TrueRun};
 
-use crate::oracle::along::{Arm, Sensing, Which, added_torque};
+use crate::hidden::{HiddenThings, Which};
+use crate::oracle::along::{HiddenArm, Sensing, added_torque};
 use crate::oracle::motion::{SeenRun, means};
-use crate::trial::hidden::HiddenThings;
 
 const STEP_S: f64 = 2e-3;
 const ROWS: usize = 1500;
@@ -136,7 +136,7 @@ fn along(text: &str, case: Case, run: TrueRun) -> DMatrix<f64> {
     let (robot, hidden) = (arm(), HiddenThings { causes, strangers });
     let sensing = Sensing { effort: case.effort, side: case.side };
     let seen = [SeenRun::new(&robot, &run.log)];
-    let arm = Arm { robot: &robot, sensing, base: &base, hidden: &hidden };
+    let arm = HiddenArm { robot: &robot, sensing, base: &base, hidden: &hidden };
     added_torque(arm, &[run], &seen, which).unwrap().remove(0)
 }
 

@@ -8,11 +8,11 @@ use simulator::strangers::StrangerKind;
 
 use crate::corner::FieldFeature;
 use crate::error::PopulationError;
+use crate::hidden::HiddenThings;
 use crate::oracle::motion::SeenRun;
 use crate::sheet::TruthSheet;
 use crate::trial::background::Friction;
 use crate::trial::field::mount;
-use crate::trial::hidden::HiddenThings;
 use crate::trial::seen::{Seen, Truths};
 
 /// Works out the sheet of a simulated trial anew from its `truth`, and leaves its logs as they are. How the logs were
@@ -42,7 +42,7 @@ pub fn sheet_again(folder: &Path) -> Result<TruthSheet, PopulationError> {
         hidden: &hidden,
         beside: &beside,
     };
-    let Seen { scales, causes, mut strangers, .. } = truths.seen()?;
+    let Seen { scales, causes, mut strangers, .. } = truths.weigh()?;
     let simulated = |name: &str| StrangerKind::ALL.iter().any(|kind| kind.name() == name);
     strangers.extend(old.strangers.iter().filter(|s| !simulated(&s.name)).cloned());
     Ok(TruthSheet { torque_rms: scales, causes, strangers, ..old })

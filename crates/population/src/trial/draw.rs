@@ -5,7 +5,7 @@ use simulator::effects::EffectSpec;
 use simulator::strangers::StrangerKind;
 
 use crate::corner::ArmClass;
-use crate::trial::hidden::{HiddenKind, HiddenThings, SizedCause};
+use crate::hidden::{HiddenKind, HiddenThings, SizedCause};
 use crate::trial::pilot::Pilot;
 
 /// Draws of one effect before it is skipped.

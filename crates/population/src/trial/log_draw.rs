@@ -8,9 +8,9 @@ use crate::bench::{BenchWishes, LabBench};
 use crate::corner::ArmClass;
 use crate::dice::{happens, one_of};
 use crate::error::PopulationError;
+use crate::hidden::HiddenThings;
 use crate::log_kind::LogKind;
 use crate::spec::PopulationSpec;
-use crate::trial::hidden::HiddenThings;
 use crate::trial::servo::{ServoDraw, whole_part};
 use crate::trial::spoilt::log_damage::LogDamage;
 

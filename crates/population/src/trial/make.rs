@@ -12,6 +12,7 @@ use simulator::{EffortSource, SimulatorError, simulate_noise_free, simulate_only
 use crate::bench::{BenchWishes, LabBench, draw_bench};
 use crate::corner::{Corner, Origin};
 use crate::error::PopulationError;
+use crate::hidden::HiddenThings;
 use crate::oracle::motion::SeenRun;
 use crate::oracle::noise::OracleNoise;
 use crate::oracle::runs::{HELD_OUT, in_steps_of, scenario_of};
@@ -21,7 +22,6 @@ use crate::spec::PopulationSpec;
 use crate::text_file::write_text;
 use crate::trial::background::{Friction, effects, everyday};
 use crate::trial::field::faults::FieldFaults;
-use crate::trial::hidden::HiddenThings;
 use crate::trial::known::{NominalKnowledge, describe};
 use crate::trial::log_draw::LogDraw;
 use crate::trial::pilot::Pilot;
@@ -277,7 +277,7 @@ impl Draft {
             self.faults.differences(&self.truth.robot, nominal, runs).collect::<Vec<_>>()
         };
         let seen =
-            Truths { scenario: &scenario, nominal, friction, hidden, beside: &beside }.seen()?;
+            Truths { scenario: &scenario, nominal, friction, hidden, beside: &beside }.weigh()?;
         let effects = [self.friction(), hidden.causes.clone()].concat();
         let held_out =
             simulate_noise_free(&scenario, &|name| name == HELD_OUT, &effects, &hidden.strangers)?;

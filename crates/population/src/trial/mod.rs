@@ -6,7 +6,6 @@ pub(crate) mod background;
 pub(crate) mod differences;
 pub(crate) mod draw;
 pub(crate) mod field;
-pub(crate) mod hidden;
 pub(crate) mod known;
 pub(crate) mod log_draw;
 pub(crate) mod make;

@@ -8,14 +8,14 @@ use simulator::scenario::Scenario;
 use simulator::{EffectSizer, TrueRun, simulate_truly};
 
 use crate::error::PopulationError;
-use crate::oracle::along::{Arm, Which, added_torque};
+use crate::hidden::{HiddenKind, HiddenThings, SizedCause, Which};
+use crate::oracle::along::{HiddenArm, added_torque};
 use crate::oracle::column::{StandIn, TorqueColumn};
 use crate::oracle::regression::strengths;
 use crate::oracle::runs::OracleRuns;
 use crate::oracle::scales::torque_scales;
 use crate::oracle::stand_ins::stand_ins;
 use crate::sheet::Strength;
-use crate::trial::hidden::{HiddenKind, HiddenThings, SizedCause};
 
 /// First torque share that is tried.
 const FIRST_SHARE: f64 = 0.1;
@@ -143,7 +143,7 @@ impl<'a> Pilot<'a> {
         let along = if bends { vec![self.simulate(run, sized)?] } else { oracle.truly.clone() };
         let which = if hidden.causes.is_empty() { Which::Stranger(0) } else { Which::Cause(0) };
         let (robot, sensing) = (self.robot(), oracle.sensing);
-        let arm = Arm { robot, sensing, base: self.base, hidden: &hidden };
+        let arm = HiddenArm { robot, sensing, base: self.base, hidden: &hidden };
         let torque = added_torque(arm, &along, &oracle.seen, which).ok()?;
         let of = |cause: &EffectSpec| StandIn::of(&cause.truth(), robot);
         let stands_for = hidden.causes.first().map_or(StandIn::Itself, of);

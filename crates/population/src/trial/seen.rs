@@ -4,7 +4,8 @@ use simulator::scenario::Scenario;
 use simulator::{StrangerTruth, Truth};
 
 use crate::error::PopulationError;
-use crate::oracle::along::{Arm, Which, added_torque};
+use crate::hidden::{HiddenThings, Which};
+use crate::oracle::along::{HiddenArm, added_torque};
 use crate::oracle::column::{StandIn, TorqueColumn};
 use crate::oracle::motion::SeenRun;
 use crate::oracle::noise::OracleNoise;
@@ -15,7 +16,6 @@ use crate::oracle::stand_ins::stand_ins;
 use crate::sheet::{CauseRole, TrueCause, TrueStranger};
 use crate::trial::background::{Friction, effects};
 use crate::trial::differences::{Difference, Drives, differences};
-use crate::trial::hidden::HiddenThings;
 use crate::trial::step::whole_step_ms;
 
 /// Longest simulation step for sizing causes and for what an oracle sees (ms).
@@ -48,14 +48,14 @@ pub(crate) struct Truths<'a> {
 
 impl Truths<'_> {
     /// Visibility of every difference from the nominal model and of everything hidden.
-    pub fn seen(&self) -> Result<Seen, PopulationError> {
+    pub fn weigh(&self) -> Result<Seen, PopulationError> {
         let robot = self.scenario.robot();
         let runs = self.runs()?;
         let drives = if runs.sensing.sees_drives() { Drives::Seen } else { Drives::Unseen };
         let mut differ = differences(robot, self.friction, self.nominal, &runs.seen, drives);
         differ.extend((self.beside)(&runs.seen));
         let base = effects(robot, self.friction);
-        let arm = Arm { robot, sensing: runs.sensing, base: &base, hidden: self.hidden };
+        let arm = HiddenArm { robot, sensing: runs.sensing, base: &base, hidden: self.hidden };
         let added = |which| added_torque(arm, &runs.truly, &runs.seen, which);
         let causes: Vec<(Truth, Vec<DMatrix<f64>>)> = (self.hidden.causes.iter().enumerate())
             .map(|(k, cause)| Ok((cause.truth(), added(Which::Cause(k))?)))

@@ -10,6 +10,7 @@ use crate::bench::LabBench;
 use crate::corner::EffortClass;
 use crate::dice::{between, happens, one_of, round_to_digits};
 use crate::error::PopulationError;
+use crate::hidden::HiddenThings;
 use crate::oracle::column::{StandIn, TorqueColumn};
 use crate::oracle::motion::SeenRun;
 use crate::oracle::noise::OracleNoise;
@@ -18,7 +19,6 @@ use crate::oracle::stand_ins::stand_ins;
 use crate::robot_files::RobotFiles;
 use crate::sheet::{Strength, TrueStranger};
 use crate::spec::ServoShareSpec;
-use crate::trial::hidden::HiddenThings;
 
 /// Rates at which goals are sent (Hz), before they become a whole part of the controller's.
 const GOALS_HZ: [f64; 4] = [30.0, 30.0, 50.0, 100.0];

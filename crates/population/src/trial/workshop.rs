@@ -1,6 +1,6 @@
 use simulator::effects::EffectSpec;
 
-use crate::trial::hidden::SizedCause;
+use crate::hidden::SizedCause;
 
 /// Largest skew of effort and position (ms): two drivers read one after the other, at 20 Hz.
 const SKEW_MS: f64 = 50.0;

@@ -51,11 +51,11 @@ pub(crate) fn simulator(
     sensors: Sensors,
     stepping: Stepping,
 ) -> Result<Simulator, SimulatorError> {
-    Simulator::new(robot, injected(robot, causes)?, sensors, stepping)
+    Simulator::new(robot, all_laws(robot, causes)?, sensors, stepping)
 }
 
 /// The laws of effects and strangers, in the order in which they act.
-pub(crate) fn injected(
+pub(crate) fn all_laws(
     robot: &Robot,
     causes: ArmCauses<'_>,
 ) -> Result<Vec<Box<dyn Inject>>, SimulatorError> {

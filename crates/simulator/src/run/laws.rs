@@ -6,7 +6,7 @@ use crate::error::SimulatorError;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
 use crate::mechanics::plant::Plant;
 use crate::run::arm_state::ArmState;
-use crate::run::follow::{ArmCauses, injected};
+use crate::run::follow::{ArmCauses, all_laws};
 use crate::run::true_run::{TrueRow, TrueRun};
 use crate::sensors::PositionSide;
 use crate::strangers::spec::StrangerSpec;
@@ -49,7 +49,7 @@ impl ActingLaws {
         effects: &[EffectSpec],
         strangers: &[StrangerSpec],
     ) -> Result<Self, SimulatorError> {
-        let causes = injected(robot, ArmCauses { effects, strangers })?;
+        let causes = all_laws(robot, ArmCauses { effects, strangers })?;
         let mut laws: Vec<Box<dyn Inject>> = described_effects(robot).chain(causes).collect();
         let mut plant = Plant::new(robot.clone());
         for law in &mut laws {

@@ -8,6 +8,7 @@ use crate::bench::LabBench;
 use crate::corner::{EffortClass, FieldFeature};
 use crate::dice::happens;
 use crate::error::PopulationError;
+use crate::hidden::HiddenThings;
 use crate::oracle::motion::SeenRun;
 use crate::robot_shares::RobotShares;
 use crate::sheet::TrueStranger;
@@ -21,7 +22,6 @@ use crate::trial::field::mount;
 use crate::trial::field::payload::ChangedPayload;
 use crate::trial::field::tool::SampledTool;
 use crate::trial::field::wrong_urdf::WrongUrdf;
-use crate::trial::hidden::HiddenThings;
 
 /// Streams of random numbers, one a feature: a feature that is added or left out shifts no other draw.
 #[derive(Debug, Clone, Copy)]

@@ -2,7 +2,14 @@ use catalogue::EffectKind;
 use simulator::effects::EffectSpec;
 use simulator::strangers::{StrangerKind, StrangerSpec};
 
-use crate::oracle::along::Which;
+/// Which of several hidden things.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Which {
+    /// A cause, by number.
+    Cause(usize),
+    /// A stranger, by number.
+    Stranger(usize),
+}
 
 /// Kind of a hidden cause.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
