@@ -281,7 +281,7 @@ fn a_made_up_trial_loses_every_name_at_the_stage_that_is_known() {
     let judgement = Judgement::new(&sheet, &answers(Verdict::PartlyExplained, findings));
     let truth: Vec<EffectAt> =
         [&friction, &load, &standing, &fast, &absent, &weak].map(Clone::clone).to_vec();
-    let asked = [&truth[..], &[wrong.clone()]].concat();
+    let asked = [&truth[..], std::slice::from_ref(&wrong)].concat();
     let settings = Settings::default();
     let account = account_for(&robot, &made_up_logs(), &settings, &truth, &asked).unwrap();
     // An oracle with the noise that is known.

@@ -18,9 +18,9 @@ pub fn at(effect: EffectKind, joint: &str) -> EffectAt {
     EffectAt { effect, joint: Some(joint.to_owned()), link: None }
 }
 
-/// What a finding says of a parameter, with a 95 % interval.
-pub fn estimate(name: &'static str, value: f64, ci95: [f64; 2], determined: bool) -> Estimate {
-    Estimate { name, value, ci95, noise95: ci95, nominal: 0.0, unit: "", determined }
+/// What a finding says of a parameter that the logs determine, with a 95 % interval.
+pub fn estimate(name: &'static str, value: f64, ci95: [f64; 2]) -> Estimate {
+    Estimate { name, value, ci95, noise95: ci95, nominal: 0.0, unit: "", determined: true }
 }
 
 /// A finding with a share of the residual, and what it may as well be.

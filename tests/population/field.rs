@@ -27,7 +27,7 @@ fn first(spec: &PopulationSpec, from: u64, feature: FieldFeature, folder: &Path)
 }
 
 fn scenario(folder: &Path) -> Scenario {
-    Scenario::from_document(&Document::read(&folder.join("truth/scenario.toml")).unwrap()).unwrap()
+    Scenario::from_document(&Document::read(folder.join("truth/scenario.toml")).unwrap()).unwrap()
 }
 
 fn robot(folder: &Path, side: &str) -> Robot {

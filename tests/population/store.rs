@@ -70,7 +70,7 @@ fn a_sheet_that_is_worked_out_anew_is_the_one_that_was_made() {
     let whole = files(&made.folder);
     let mut told = Vec::new();
     store.sheets_again(&mut |folder| told.push(folder.to_owned())).unwrap();
-    assert_eq!(told, [made.folder.clone()]);
+    assert_eq!(told, std::slice::from_ref(&made.folder));
     assert!(files(&made.folder) == whole);
     assert_eq!(store.trial(&spec, 4).unwrap().came, Came::WasThere);
 }

@@ -141,6 +141,7 @@ pub struct InspectionThresholds {
 }
 
 impl Default for InspectionThresholds {
+    #[expect(clippy::too_many_lines, reason = "one line a field")]
     fn default() -> Self {
         Self {
             moments: MomentThresholds::default(),

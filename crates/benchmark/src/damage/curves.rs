@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::damage::answer::DamageAnswer;
-use crate::damage::outcome::DamageOutcome;
+use crate::damage::outcome::{DamageOutcome, Telling};
 use crate::damage::told::is_told;
 use crate::error::BenchmarkError;
 use crate::trial_folder::unusable;
@@ -144,14 +144,15 @@ impl MadeTrial {
         let Some(damage) = damage_logs(&self.folder, &spec, &spoilt)? else { return Ok(None) };
         let after = DamageAnswer::of_folder(&spoilt)?;
         fs::remove_dir_all(&spoilt).map_err(unusable(&spoilt))?;
-        let told = is_told(&self.answer, &after, &damage);
+        let is_told = is_told(&self.answer, &after, &damage);
+        let telling = if is_told { Telling::Told } else { Telling::Untold };
         let place = format!("{}/", spoilt.display());
         let new = after.said.iter().filter(|text| !self.answer.said.contains(text));
         Ok(Some(DamagePoint {
             kind,
             size,
             trial,
-            outcome: DamageOutcome::new(&self.answer, &after, told),
+            outcome: DamageOutcome::new(&self.answer, &after, telling),
             verdict: after.verdict.words(),
             names: after.names.iter().map(|name| name.at.words()).collect(),
             said: new.map(|text| text.replace(&place, "")).collect(),

@@ -20,20 +20,34 @@ pub enum DamageOutcome {
     Wrong,
 }
 
+/// Whether an answer tells the damage.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Telling {
+    /// A warning or refusal names it.
+    Told,
+    /// Nothing names it.
+    Untold,
+}
+
 impl DamageOutcome {
     /// All of them.
     pub const ALL: [Self; 5] = [Self::Right, Self::Told, Self::Open, Self::Changed, Self::Wrong];
 
-    /// The outcome of an answer to spoilt logs, beside that to the same logs before; `is_told` says whether it tells the
+    /// The outcome of an answer to spoilt logs, beside that to the same logs before; `telling` says whether it tells the
     /// damage.
-    pub(crate) fn new(before: &DamageAnswer, after: &DamageAnswer, is_told: bool) -> Self {
+    pub(crate) fn new(before: &DamageAnswer, after: &DamageAnswer, telling: Telling) -> Self {
         let is_new = |name: &NamedSizes| !before.names.iter().any(|known| known.covers(name));
         let is_kept = |name: &NamedSizes| {
             after.names.iter().any(|found| name.covers(found) && name.agrees(found))
         };
         let any_new = after.names.iter().any(is_new);
         let same = !any_new && before.names.iter().all(is_kept);
-        match (same && before.verdict == after.verdict, is_told, after.is_closed(), any_new) {
+        match (
+            same && before.verdict == after.verdict,
+            telling == Telling::Told,
+            after.is_closed(),
+            any_new,
+        ) {
             (true, ..) => Self::Right,
             (false, true, ..) => Self::Told,
             (false, false, false, _) => Self::Open,
@@ -65,6 +79,7 @@ mod tests {
     use catalogue::EffectKind;
     use diagnosis::{EffectAt, Verdict};
 
+    use super::Telling::{Told, Untold};
     use super::*;
 
     fn name(joint: &str, size: [f64; 2]) -> NamedSizes {
@@ -85,15 +100,15 @@ mod tests {
         let explained = |names: &[NamedSizes]| answer(Verdict::Explained, names);
         let before = explained(&[name("elbow", [0.9, 1.1])]);
         let of = |after: &DamageAnswer, told| DamageOutcome::new(&before, after, told);
-        assert_eq!(of(&before, true), DamageOutcome::Right);
-        assert_eq!(of(&explained(&[name("elbow", [1.0, 1.3])]), false), DamageOutcome::Right);
-        assert_eq!(of(&explained(&[name("elbow", [1.2, 1.3])]), false), DamageOutcome::Changed);
-        assert_eq!(of(&explained(&[]), false), DamageOutcome::Changed);
+        assert_eq!(of(&before, Told), DamageOutcome::Right);
+        assert_eq!(of(&explained(&[name("elbow", [1.0, 1.3])]), Untold), DamageOutcome::Right);
+        assert_eq!(of(&explained(&[name("elbow", [1.2, 1.3])]), Untold), DamageOutcome::Changed);
+        assert_eq!(of(&explained(&[]), Untold), DamageOutcome::Changed);
         let both = [name("elbow", [0.9, 1.1]), name("wrist", [0.1, 0.2])];
-        assert_eq!(of(&explained(&both), false), DamageOutcome::Wrong);
-        assert_eq!(of(&explained(&both), true), DamageOutcome::Told);
-        assert_eq!(of(&answer(Verdict::PartlyExplained, &both), false), DamageOutcome::Open);
-        assert_eq!(of(&answer(Verdict::DataInadequate, &[]), false), DamageOutcome::Open);
+        assert_eq!(of(&explained(&both), Untold), DamageOutcome::Wrong);
+        assert_eq!(of(&explained(&both), Told), DamageOutcome::Told);
+        assert_eq!(of(&answer(Verdict::PartlyExplained, &both), Untold), DamageOutcome::Open);
+        assert_eq!(of(&answer(Verdict::DataInadequate, &[]), Untold), DamageOutcome::Open);
     }
 
     #[test]
@@ -102,6 +117,6 @@ mod tests {
         first.rivals.push(name("wrist", [0.0, 0.0]).at);
         let before = answer(Verdict::Explained, &[first]);
         let after = answer(Verdict::Explained, &[name("wrist", [0.95, 1.0])]);
-        assert_eq!(DamageOutcome::new(&before, &after, false), DamageOutcome::Right);
+        assert_eq!(DamageOutcome::new(&before, &after, Untold), DamageOutcome::Right);
     }
 }

@@ -4,6 +4,8 @@ use diagnosis::{Diagnosis, Verdict};
 use population::TrueStranger;
 use serde::{Deserialize, Serialize};
 
+use crate::panel::judged_finding::JudgedFinding;
+
 /// Starts of the names of strangers that are in the logs, or in how the model reads them, instead of the arm.
 const SPOILINGS: [&str; 2] = ["log: ", "model: "];
 
@@ -92,7 +94,7 @@ impl SpoilingOutcome {
     fn new(
         stranger: &TrueStranger,
         diagnosis: Result<&Diagnosis, &String>,
-        names_falsely: bool,
+        findings: &[JudgedFinding],
     ) -> Self {
         let tells = |text: &str| says(stranger, text);
         let tells_another = |text: &str| SAYS_SPOILT.iter().any(|words| text.contains(words));
@@ -108,7 +110,9 @@ impl SpoilingOutcome {
         let told_at_all = told.peek().is_some();
         let is_open = match diagnosis.verdict {
             Verdict::DataInadequate => true,
-            Verdict::Unexplained | Verdict::PartlyExplained => !names_falsely,
+            Verdict::Unexplained | Verdict::PartlyExplained => {
+                findings.iter().all(|finding| finding.is_true)
+            }
             Verdict::Consistent | Verdict::Explained => false,
         };
         if diagnosis.data.put_right && told.any(|text| text.ends_with(READ_SO)) {
@@ -135,13 +139,13 @@ impl JudgedSpoiling {
     pub(super) fn all(
         strangers: &[TrueStranger],
         diagnosis: Result<&Diagnosis, &String>,
-        names_falsely: bool,
+        findings: &[JudgedFinding],
     ) -> Vec<Self> {
         let visible = |other: &&TrueStranger| Self::is_one(other) && other.strength.visible();
         let judge = |stranger: &TrueStranger| Self {
             name: kind(stranger).to_owned(),
             joint: stranger.joint.clone(),
-            outcome: SpoilingOutcome::new(stranger, diagnosis, names_falsely),
+            outcome: SpoilingOutcome::new(stranger, diagnosis, findings),
         };
         strangers.iter().filter(visible).map(judge).collect()
     }

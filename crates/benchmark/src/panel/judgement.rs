@@ -61,7 +61,7 @@ impl Judgement {
         let judge =
             |cause| JudgedCause::new((cause, &sheet.causes), &found, ruled_out, &least_squares);
         let findings = JudgedFinding::all(&found, &sheet.causes);
-        let names_falsely = findings.iter().any(|finding| !finding.is_true);
+        let spoilings = JudgedSpoiling::all(&sheet.strangers, diagnosis, &findings);
         let strangers = sheet.strangers.iter().filter(|other| !JudgedSpoiling::is_one(other));
         let stranger = |other: &TrueStranger| TrueStranger {
             strength: finite(other.strength),
@@ -76,7 +76,7 @@ impl Judgement {
             causes: sheet.causes.iter().map(judge).collect(),
             findings,
             strangers: strangers.map(stranger).collect(),
-            spoilings: JudgedSpoiling::all(&sheet.strangers, diagnosis, names_falsely),
+            spoilings,
             reasons: diagnosis.map(JudgedReasons::new).unwrap_or_default(),
             prediction: Prediction::new(&answers.held_out, &sheet.torque_rms),
             costs: answers.costs,

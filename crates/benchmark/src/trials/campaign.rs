@@ -26,7 +26,7 @@ pub enum Campaign {
     /// Trials of the arm of a scenario.
     Scenario(ScenarioCampaign),
     /// Trials with random arms, sensors, motions and causes.
-    Population(PopulationCampaign),
+    Population(Box<PopulationCampaign>),
 }
 
 /// A campaign of trials of a population.
@@ -62,7 +62,7 @@ impl Campaign {
         let file: PopulationCampaign = document.parse()?;
         let key = KeyPath::root().key(POPULATION);
         let population = PopulationSpec::from_document(document, &key, file.population)?;
-        Ok(Self::Population(PopulationCampaign { population }))
+        Ok(Self::Population(Box::new(PopulationCampaign { population })))
     }
 
     /// The campaign as one text; `scenario` is the name of the scenario file beside it, if it has one.

@@ -103,7 +103,6 @@ impl LogDraw {
     pub fn damage(
         &self,
         (robot, runs): (&Robot, usize),
-        is_clean: bool,
         usual: Option<LogDamage>,
     ) -> Option<LogDamage> {
         let has_effort = self.servo.is_none();
@@ -116,7 +115,7 @@ impl LogDraw {
             LogDamage::of_kind(*kind, *size, (robot, runs), &mut self.damage_stream(*kind))
         });
         let usual = usual.filter(|usual| fits(&usual.kind));
-        own.next().filter(|_| !is_clean).or(usual)
+        own.next().or(usual)
     }
 
     /// The repetition of messages, where the logs hold their values.

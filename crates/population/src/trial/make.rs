@@ -106,7 +106,7 @@ fn make_once(
     let spoilt = !clean && random.random_bool(spec.spoilt);
     let spoilt = spoilt.then(|| LogDamage::draw(&draft.truth.robot, random));
     let runs = (&draft.truth.robot, draft.bench.runs.len());
-    let damage = draft.log.damage(runs, clean, spoilt);
+    let damage = if clean { None } else { draft.log.damage(runs, spoilt) };
     draft.make_logs(step, &hidden, damage, folder)
 }
 

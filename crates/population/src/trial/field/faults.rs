@@ -13,7 +13,7 @@ use crate::oracle::motion::SeenRun;
 use crate::robot_shares::RobotShares;
 use crate::sheet::TrueStranger;
 use crate::trial::background::Friction;
-use crate::trial::differences::Difference;
+use crate::trial::differences::{Difference, Drives};
 use crate::trial::field::delay::delay_of_all;
 use crate::trial::field::friction::{strong, with_levels};
 use crate::trial::field::inertial::with_hand;
@@ -102,9 +102,12 @@ impl FieldFaults {
 
         let mut random = Stream::WrongUrdf.open(main);
         if happens(&mut random, shares.wrong_urdfs) {
-            let shows = bench.effort != EffortClass::JointTorque;
+            let drives = match bench.effort {
+                EffortClass::JointTorque => Drives::Unseen,
+                EffortClass::Command | EffortClass::Current => Drives::Seen,
+            };
             let given = (&bench.nominal, &tool);
-            let wrong = WrongUrdf::draw(&bench.truth.urdf, robot, given, shows, &mut random)?;
+            let wrong = WrongUrdf::draw(&bench.truth.urdf, robot, given, drives, &mut random)?;
             bench.nominal = wrong.model;
             self.features.extend(wrong.errors);
         }

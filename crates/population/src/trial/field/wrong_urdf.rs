@@ -11,6 +11,7 @@ use crate::dice::{
 };
 use crate::error::PopulationError;
 use crate::robot_files::RobotFiles;
+use crate::trial::differences::Drives;
 use crate::trial::field::inertial::{body_of, with_body, with_damping, with_hand};
 use crate::trial::field::tool::SampledTool;
 
@@ -59,10 +60,10 @@ impl WrongUrdf {
         truth: &str,
         robot: &Robot,
         (model, tool): (&RobotFiles, &SampledTool),
-        shows_friction: bool,
+        drives: Drives,
         random: &mut ChaCha8Rng,
     ) -> Result<Self, PopulationError> {
-        let errors = draw_errors(shows_friction, random);
+        let errors = draw_errors(drives, random);
         let mut bodies = Bodies { truth, robot, wrong: BTreeMap::new() };
         let mut model = RobotFiles { toml: without_rotors(&model.toml), ..model.clone() };
         for error in &errors {
@@ -104,12 +105,12 @@ impl WrongUrdf {
 }
 
 /// One error, or two that do not hide one another.
-fn draw_errors(shows_friction: bool, random: &mut ChaCha8Rng) -> Vec<FieldFeature> {
+fn draw_errors(drives: Drives, random: &mut ChaCha8Rng) -> Vec<FieldFeature> {
     let weight = |errors: &[FieldFeature], (error, weight): (FieldFeature, f64)| {
         use FieldFeature as F;
         let among = |one: F, other: F| errors.contains(&one) && error == other;
         let is_hidden = errors.contains(&error)
-            || (error == F::DummyDamping && !shows_friction)
+            || (error == F::DummyDamping && drives == Drives::Unseen)
             || among(F::PlaceholderInertia, F::InertiaUnit)
             || among(F::InertiaUnit, F::PlaceholderInertia)
             || among(F::ToolTakenOff, F::ToolUnknown)
@@ -234,7 +235,8 @@ mod tests {
         for seed in 0..400 {
             let mut random = ChaCha8Rng::seed_from_u64(seed);
             let tool = SampledTool::draw(&robot, &mut random).unwrap();
-            let drawn = WrongUrdf::draw(URDF, &robot, (&files, &tool), true, &mut random).unwrap();
+            let drawn =
+                WrongUrdf::draw(URDF, &robot, (&files, &tool), Drives::Seen, &mut random).unwrap();
             if drawn.errors == [error] {
                 let body = body_of(&drawn.model.urdf, "a").unwrap();
                 all.push((Robot::from_urdf(&drawn.model.urdf).unwrap(), body));
