@@ -265,6 +265,8 @@ fn a_tally_counts_every_trial_in_one_row_of_each_kind() {
         "logs 2-3",
         "logs 4+",
         "runs differ",
+        "log usual",
+        "goals of a controller",
     ];
     assert_eq!(sides, expected);
     let all = row(&tally, "all");
