@@ -17,7 +17,7 @@ use recording::Contents;
 
 use crate::limits::{killed_beyond, with_room};
 use crate::program::{Answer, interruptible, run};
-use crate::writers::{COMMANDS, folder, plan};
+use crate::writers::{COMMANDS, content, folder, plan};
 
 /// A command ends, or says that it will, within this time of a signal.
 const ANSWER: Duration = Duration::from_secs(1);
@@ -58,7 +58,7 @@ impl Place {
             let start = Instant::now();
             let answer = run(place.path(), &words(index));
             assert!(answer.code <= 1, "{command}: {}", answer.err);
-            let file = fs::read(place.same(index)).unwrap();
+            let file = content(&place.same(index));
             place.known.push((start.elapsed(), answer.code, file));
             place.largest_kb.push(largest_kb(&place.out()));
         }
@@ -124,7 +124,7 @@ impl Place {
     fn assert_same(&self, index: usize, answer: &Answer) {
         let (_, code, file) = &self.known[index];
         assert_eq!(answer.code, *code, "{}: {}", COMMANDS[index].0, answer.err);
-        assert!(fs::read(self.same(index)).unwrap() == *file, "{}", COMMANDS[index].0);
+        assert!(content(&self.same(index)) == *file, "{}", COMMANDS[index].0);
         assert_whole(&self.out(), Growing::Refused);
     }
 

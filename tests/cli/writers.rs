@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::arm::{self, Gap};
 
-/// Commands that write below `out`, and a file of each that is always the same.
+/// Commands that write below `out`, and a file of each whose [`content`] is always the same.
 pub const COMMANDS: [(&str, &str); 9] = [
     ("diagnose --robot arm.urdf --log run_0.csv run_1.csv --out out", "diagnosis.json"),
     (
@@ -28,6 +28,11 @@ pub const COMMANDS: [(&str, &str); 9] = [
     ("run runs.toml --seed 1 --out out", "metrics.json"),
     ("demo --out out", "metrics.json"),
 ];
+
+/// What a file holds.
+pub fn content(file: &Path) -> Vec<u8> {
+    std::fs::read(file).unwrap()
+}
 
 /// The arm of the campaign, with gains that a motion is tracked with.
 const SOFT: &str = r#"urdf = "arm.urdf"
