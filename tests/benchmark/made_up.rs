@@ -64,6 +64,7 @@ pub fn diagnosis(verdict: Verdict, findings: Vec<Finding>) -> Diagnosis {
         joints: Vec::new(),
         findings,
         negligible: Vec::new(),
+        also_fitted: None,
         unexplained: Vec::new(),
         ruled_out: Vec::new(),
         gain: Gain { inverse },

@@ -121,6 +121,30 @@ fn spoilt_logs_have_one_outcome_of_five() {
     );
 }
 
+/// A model that reads joints wrongly is told by the same sentences as logs that are so.
+#[test]
+fn what_a_model_misreads_is_judged_as_a_spoiling() {
+    let outcome_of = |name: &str, joint: Option<&str>, warning: &str| {
+        let mut sheet = sheet(&[(CoulombFriction, "elbow", SEEN)]);
+        let mut misread = stranger(SEEN);
+        (misread.name, misread.joint) = (name.to_owned(), joint.map(str::to_owned));
+        sheet.strangers = vec![misread];
+        let mut answers = answers(Verdict::DataInadequate, Vec::new());
+        answers.diagnosis = warned(Verdict::DataInadequate, warning);
+        let judgement = Judgement::new(&sheet, &answers);
+        assert!(judgement.is_spoilt() && judgement.causes_to_name().next().is_none(), "{name}");
+        judgement.spoilings[0].outcome
+    };
+    let sign = "The position of joint elbow seems to have the other sign.";
+    let exchanged = "The efforts of joints shoulder and elbow seem to be exchanged.";
+    use SpoilingOutcome as O;
+    assert_eq!(outcome_of("model: axis turned", Some("elbow"), sign), O::ToldRightly);
+    assert_eq!(outcome_of("model: axis turned", Some("shoulder"), sign), O::ToldWrongly);
+    assert_eq!(outcome_of("model: joints exchanged", None, exchanged), O::ToldRightly);
+    assert_eq!(outcome_of("log: columns exchanged", None, exchanged), O::ToldRightly);
+    assert_eq!(outcome_of("model: joints exchanged", None, sign), O::ToldWrongly);
+}
+
 #[test]
 fn spoilt_trials_leave_all_other_scores_and_have_a_table() {
     let causes = [(CoulombFriction, "elbow", SEEN)];

@@ -87,6 +87,9 @@ pub struct SearchArguments {
     /// An effect that the robot is known not to have and is not looked for; may be said again
     #[arg(long, value_name = "EFFECT", value_parser = effect)]
     pub without: Vec<EffectKind>,
+    /// Write the findings alone; parameters fitted beside them, without a name, are left out
+    #[arg(long)]
+    pub only_findings: bool,
 }
 
 impl SearchArguments {
@@ -96,6 +99,7 @@ impl SearchArguments {
             cutoff_hz: self.cutoff_hz,
             control_rate_hz: loaded.control.rate_hz,
             without: self.without.clone(),
+            only_findings: self.only_findings,
             ..Settings::default()
         }
     }

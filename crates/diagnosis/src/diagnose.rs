@@ -16,7 +16,6 @@ use crate::readiness::extent::{drop_runs_without_effort, inadequate};
 use crate::readiness::inspected_logs::inspect_logs;
 use crate::readiness::second_encoders::without_idle_encoders;
 use crate::result::{Diagnosis, RunSummary};
-use crate::search::body_errors::choose_body_errors;
 use crate::search::inputs::Inputs;
 use crate::settings::Settings;
 use crate::signals::log::Log;
@@ -122,9 +121,6 @@ pub(crate) fn with_inputs<T>(
     let described = Some(robot).filter(|robot| differ_in_drives(robot, about));
     let limits = limits(about, &Log { described, ..log })?;
     let log = Log { described, limits: &limits, ..log };
-    let body_errors = choose_body_errors(about, settings, &log, &inadequate)?;
-    let settings = &settings.with_body_errors(body_errors);
-    let log = Log { thresholds: &settings.thresholds, ..log };
     let search = ToneSearch { nominal: robot, about, settings, log, inadequate: &inadequate };
     let (oscillations, shaped) = search.find_tones(runs)?;
     warnings.extend(

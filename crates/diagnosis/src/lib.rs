@@ -45,9 +45,9 @@ pub use outcome::held_out::{HeldOutPart, Span};
 pub use outcome::traces::{JointTraces, RunTraces};
 pub use progress::{DiagnosisProgress, Silent};
 pub use result::{
-    DataSummary, Dependence, Diagnosis, EffectAt, Estimate, Finding, FoldGain, Gain, InverseGain,
-    JointReport, Negligible, NoiseFloorSource, NoiseSpectrum, RuledOut, RunSummary, SCHEMA,
-    Unexplained, Verdict,
+    AlsoFitted, DataSummary, Dependence, Diagnosis, EffectAt, Estimate, Finding, FittedParameter,
+    FoldGain, Gain, InverseGain, JointReport, Negligible, NoiseFloorSource, NoiseSpectrum,
+    RuledOut, RunSummary, SCHEMA, Unexplained, Verdict,
 };
 pub use settings::Settings;
 pub use signals::left_over::{LeftOver, unexplained_torque};

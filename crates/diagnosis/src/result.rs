@@ -61,6 +61,9 @@ pub struct Diagnosis {
     pub negligible: Vec<Negligible>,
     /// Structure that no named cause explains.
     pub unexplained: Vec<Unexplained>,
+    /// What is fitted beside the findings, where the robot with it predicts better.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub also_fitted: Option<AlsoFitted>,
     /// Effects that were tested and not found.
     pub ruled_out: Vec<RuledOut>,
     /// The fall of the prediction error on held-out data.
@@ -281,6 +284,35 @@ pub struct Dependence {
     pub signal: String,
     /// Share of the residual's power that the signal predicts on held-out data.
     pub share: f64,
+}
+
+/// Changes of everyday effects and of bodies that the extended robot has beside the findings.
+///
+/// The logs show none of them by itself. Where every number of a description is off by a little, all together predict
+/// better.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct AlsoFitted {
+    /// The changed parameters.
+    pub parameters: Vec<FittedParameter>,
+    /// RMS error on held-out data with the findings alone, per joint (N m or N); with everything it is
+    /// [`InverseGain::rms_after_nm`].
+    pub rms_named_nm: Vec<f64>,
+}
+
+/// A parameter that is fitted beside the findings.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FittedParameter {
+    /// The effect and its place.
+    #[serde(flatten)]
+    pub at: EffectAt,
+    /// Name of the parameter, as in the catalogue.
+    pub name: &'static str,
+    /// Value in the extended robot.
+    pub value: f64,
+    /// Value in the robot with the findings alone.
+    pub before: f64,
+    /// Unit.
+    pub unit: &'static str,
 }
 
 /// An effect that was looked for and not found.

@@ -16,6 +16,8 @@ pub struct Settings {
     pub open_share: f64,
     /// Effects that are not looked for, neither as findings nor as rivals.
     pub without: Vec<EffectKind>,
+    /// Whether the extended robot has nothing but the findings ([`crate::AlsoFitted`] otherwise).
+    pub only_findings: bool,
     /// Every other number that decides.
     pub thresholds: Thresholds,
 }
@@ -28,19 +30,13 @@ impl Default for Settings {
             practical_share: 0.005,
             open_share: 0.02,
             without: Vec::new(),
+            only_findings: false,
             thresholds: Thresholds::default(),
         }
     }
 }
 
 impl Settings {
-    /// The same settings with the standard deviation of the inertial parameters of the links in errors of CAD (1).
-    pub(crate) fn with_body_errors(&self, body_errors: f64) -> Self {
-        let mut settings = self.clone();
-        settings.thresholds.priors.body_errors = body_errors;
-        settings
-    }
-
     /// The settings, if every one of them can be used.
     ///
     /// # Errors

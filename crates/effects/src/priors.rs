@@ -67,9 +67,6 @@ pub struct Priors {
     pub payload_reach_m: f64,
     /// Standard deviation of the mass of a link beyond its own mass, in mean masses of a link (1).
     pub link_mass_sd_share: f64,
-    /// Standard deviation of the inertial parameters of the links, in errors of CAD (1). A diagnosis chooses it for its
-    /// robot; 4 is what the published descriptions of a KUKA LWR 4 and a Kinova Gen3 err by.
-    pub body_errors: f64,
     /// Share by which masses and inertias of CAD are wrong (1): cables, screws and castings are not in it.
     pub cad_share: f64,
     /// Distance by which centres of mass of CAD are wrong (m).
@@ -109,7 +106,6 @@ impl Default for Priors {
             spring_rest_sd: 0.25,
             payload_reach_m: 0.5,
             link_mass_sd_share: 0.3,
-            body_errors: 4.0,
             cad_share: 0.1,
             cad_centre_m: 0.01,
             cad_least_mass_kg: 0.01,

@@ -1,25 +1,18 @@
 use std::path::{Path, PathBuf};
 
 use document::{Document, KeyPath};
-use learner::{ModelKind, SilentTraining};
-use logs::{PrepareSettings, Run, prepare};
+use learner::ModelKind;
 use robot::{Loaded, Robot};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use simulator::scenario::{Scenario, ScenarioSpec};
 
 use crate::error::ExperimentError;
-use crate::gain::Gains;
-use crate::models::learned::Learned;
-use crate::replay::forward_gap::forward_gap;
 use crate::scenario::feedforward_kind::FeedforwardKind;
 use crate::scenario::tracking_scenario::{TrackingScenario, plant_of, with_plant};
 use crate::scenario::tracking_spec::{
     ErrorRateSpec, LearnSpec, PredictionSpec, TrackingControlSpec, TrackingSpec,
 };
-use crate::torque::torque_error::torque_errors;
-use crate::tracking::track::track_all;
-use crate::tracking::tracked_error::TrackedError;
 
 /// An arm whose effects are found in some of its runs, and the gain of finding them on the others.
 ///
@@ -156,33 +149,6 @@ impl Experiment {
     /// The runs on which the findings are tested.
     pub fn test(&self) -> impl Iterator<Item = &str> {
         self.names().filter(|name| !self.is_learned(name))
-    }
-
-    /// The gains of `extended`, which was found in the runs for learning, on the other runs: at one joint or over
-    /// all. `drawn` is the scenario with the effects of its arm.
-    ///
-    /// # Errors
-    ///
-    /// [`ExperimentError`] when the logs cannot be prepared or the arm cannot track the motion.
-    pub fn gains(
-        &self,
-        drawn: &TrackingScenario,
-        [learned, test]: [&[Run]; 2],
-        extended: &Robot,
-        joint: Option<usize>,
-    ) -> Result<Gains, ExperimentError> {
-        let models = Learned::learn(drawn, learned, Some(extended), &SilentTraining)?;
-        let torque = torque_errors(drawn, &models, test)?;
-        let prepared = prepare(test, &PrepareSettings::default())?;
-        let robots = [self.plant().robot(), extended];
-        let forward = forward_gap(robots, &prepared.runs, &diagnosis::Silent);
-        let runs =
-            track_all(&self.with_softest_gains(drawn, extended), &models, None, &SilentTraining)?;
-        let tracking: Vec<TrackedError> = runs.iter().map(TrackedError::of).collect();
-        Ok(match joint {
-            Some(j) => Gains::at(j, &torque, &forward, &tracking),
-            None => Gains::of_all(&torque, &forward, &tracking),
-        })
     }
 
     fn names(&self) -> impl Iterator<Item = &str> {

@@ -35,7 +35,7 @@ pub use claims::paper_models::{PAPER_MODELS, PROCESSES, SEMIPARAMETRIC};
 pub use claims::tracking_claims::tracking_claims;
 pub use error::ExperimentError;
 pub use experiment::{Experiment, with_seed};
-pub use gain::{Gains, PredictionGain};
+pub use gain::PredictionGain;
 pub use metrics::Metrics;
 pub use models::learned::{Learned, Lesson};
 pub use models::median_time::median_time_s;

@@ -34,8 +34,14 @@ pub fn compare(
     without: Vec<String>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<PyComparison> {
-    let request =
-        |logs| DiagnosisRequest { function: "compare", robot, logs, cutoff_hz, without: &without };
+    let request = |logs| DiagnosisRequest {
+        function: "compare",
+        robot,
+        logs,
+        cutoff_hz,
+        without: &without,
+        only_findings: false,
+    };
     let (first, other) = (request(before), request(after));
     let (runs, settings) = ([first.runs()?, other.runs()?], first.settings()?);
     let origins = [first.provenance(&runs[0])?, other.provenance(&runs[1])?];

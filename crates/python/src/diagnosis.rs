@@ -40,6 +40,8 @@ pub struct DiagnosisRequest<'a> {
     pub cutoff_hz: Option<f64>,
     /// Effects that are not looked for.
     pub without: &'a [String],
+    /// Whether nothing is fitted beside the findings.
+    pub only_findings: bool,
 }
 
 impl DiagnosisRequest<'_> {
@@ -51,7 +53,11 @@ impl DiagnosisRequest<'_> {
     /// How causes are searched.
     pub fn settings(&self) -> PyResult<Settings> {
         let cutoff_hz = positive("cutoff_hz", self.cutoff_hz)?;
-        let search = SearchArguments { cutoff_hz, without: effects(self.without)? };
+        let search = SearchArguments {
+            cutoff_hz,
+            without: effects(self.without)?,
+            only_findings: self.only_findings,
+        };
         Ok(search.settings(&self.robot.loaded))
     }
 
@@ -83,6 +89,9 @@ impl DiagnosisRequest<'_> {
         command.extend(files.first().map(|(_, options)| options.clone()).unwrap_or_default());
         if let Some(cutoff_hz) = self.cutoff_hz {
             command.extend(["--cutoff-hz".to_owned(), cutoff_hz.to_string()]);
+        }
+        if self.only_findings {
+            command.push("--only-findings".to_owned());
         }
         for effect in self.without {
             command.extend(["--without".to_owned(), effect.clone()]);
@@ -126,17 +135,24 @@ impl PyDiagnosis {
 ///
 /// [`crate::error::PlumblineError`] for logs that cannot be used.
 #[pyfunction]
-#[pyo3(signature = (robot, logs, *, cutoff_hz=None, without=Vec::new(), progress=None))]
+#[pyo3(signature = (robot, logs, *, cutoff_hz=None, without=Vec::new(), only_findings=false, progress=None))]
 pub fn diagnose(
     py: Python<'_>,
     robot: &PyRobot,
     logs: Vec<PyRef<'_, PyLog>>,
     cutoff_hz: Option<f64>,
     without: Vec<String>,
+    only_findings: bool,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<PyDiagnosis> {
-    let request =
-        DiagnosisRequest { function: "diagnose", robot, logs, cutoff_hz, without: &without };
+    let request = DiagnosisRequest {
+        function: "diagnose",
+        robot,
+        logs,
+        cutoff_hz,
+        without: &without,
+        only_findings,
+    };
     let (runs, settings) = (request.runs()?, request.settings()?);
     let provenance = request.provenance(&runs)?;
     let about = &robot.loaded.robot;

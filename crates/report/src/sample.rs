@@ -142,6 +142,7 @@ fn diagnosis(names: &[&str]) -> Diagnosis {
         ],
         findings: vec![coulomb(names[0]), inertia("elbow_link")],
         negligible: Vec::new(),
+        also_fitted: None,
         unexplained: vec![Unexplained {
             joint: names[1].into(),
             share: 0.29,

@@ -1,6 +1,7 @@
 use population::{LogKind, LogSpoiling};
 
 use crate::damage::answer::DamageAnswer;
+use crate::panel::spoiling_phrases::spoiling_phrases;
 
 /// Name of the run with another clock.
 const OTHER_CLOCK: &str = "log_2";
@@ -15,7 +16,8 @@ pub(crate) fn is_told(before: &DamageAnswer, after: &DamageAnswer, damage: &LogS
     };
     let has_place = !is_of_all(damage.kind);
     new.into_iter().any(|text| {
-        words(damage.kind).iter().any(|word| text.contains(word)) && (!has_place || place(text))
+        spoiling_phrases(damage.kind).iter().any(|phrase| text.contains(phrase))
+            && (!has_place || place(text))
     })
 }
 
@@ -35,32 +37,6 @@ fn is_of_all(kind: LogKind) -> bool {
             | LogKind::LowRate
             | LogKind::NoNoise
     )
-}
-
-/// Words that name a kind of damage in a sentence of the program; a column and row at fault name what is in single
-/// rows.
-fn words(kind: LogKind) -> &'static [&'static str] {
-    match kind {
-        LogKind::EffortSign | LogKind::PositionSign => &["other sign"],
-        LogKind::EffortsExchanged => &["exchanged"],
-        LogKind::EffortUnit | LogKind::EffortInAmperes => &["another unit", ".effort, row"],
-        LogKind::EffortWithoutGravity => &["torque of gravity", "without gravity"],
-        LogKind::TimeUnit | LogKind::TimeStretched | LogKind::OtherClock => {
-            &["what a second is", "clock"]
-        }
-        LogKind::StuckEncoder => &["stands still"],
-        LogKind::HeldByLogger => &["stand still"],
-        LogKind::Spikes => &["single samples", ".position, row"],
-        LogKind::TurnJump => &["full turns"],
-        LogKind::EffortZeros => &["zero", ".effort, row"],
-        LogKind::EffortSpikes => &["single samples", "spike", ".effort, row"],
-        LogKind::EffortWithoutSign => &["without a sign", "no sign", "never negative"],
-        LogKind::BeyondStatedLimit => &["beyond the limit", "beyond its limit", "limit is wrong"],
-        LogKind::NormalisedUnits => &["normalised"],
-        LogKind::HeldValues => &["repeat", "held"],
-        LogKind::LowRate => &["rate"],
-        LogKind::NoNoise => &["noise"],
-    }
 }
 
 #[cfg(test)]

@@ -1,40 +1,17 @@
 use std::fmt;
 
 use diagnosis::{Diagnosis, Verdict};
-use population::TrueStranger;
+use population::{LogKind, TrueStranger};
 use serde::{Deserialize, Serialize};
 
 use crate::panel::judged_finding::JudgedFinding;
+use crate::panel::spoiling_phrases::{EXCHANGED, OTHER_SIGN, spoiling_phrases};
 
 /// Starts of the names of strangers that are in the logs, or in how the model reads them, instead of the arm.
 const SPOILINGS: [&str; 2] = ["log: ", "model: "];
 
 /// End of the sentence of a correction that a diagnosis applies.
 const READ_SO: &str = "Until then the logs are read so.";
-
-/// What a spoiling is called on a sheet, and phrases with which the program names it.
-const NAMED_BY: [(&[&str], &[&str]); 14] = [
-    (&["effort sign", "position sign", "axis turned"], &["other sign"]),
-    (&["efforts exchanged", "columns exchanged", "joints exchanged"], &["exchanged"]),
-    (&["effort in mN m", "effort in amperes"], &["in another unit", ".effort, row"]),
-    (&["effort without gravity"], &["torque of gravity", "without gravity"]),
-    (
-        &["time in ms", "time stretched", "another clock in one run"],
-        &["what a second is", "unit of time", "another clock"],
-    ),
-    (&["stuck encoder"], &["stands still"]),
-    (&["held by logger"], &["signals stand still"]),
-    (&["spikes"], &["single samples", ".position, row"]),
-    (&["jump by a turn"], &["full turns"]),
-    (&["zeros in an effort"], &["zero", ".effort, row"]),
-    (&["spikes in an effort"], &["single samples", "spike", ".effort, row"]),
-    (&["effort without a sign"], &["without a sign", "no sign", "never negative"]),
-    (
-        &["torque beyond the stated limit"],
-        &["beyond the limit", "beyond its limit", "limit is wrong"],
-    ),
-    (&["normalised units"], &["normalised"]),
-];
 
 /// Phrases with which an inspection of whole logs says that something is wrong with them.
 const SAYS_SPOILT: [&str; 14] = [
@@ -158,9 +135,14 @@ fn kind(stranger: &TrueStranger) -> &str {
 
 /// Whether a text names the spoiling and its joint, if it has one.
 fn says(stranger: &TrueStranger, text: &str) -> bool {
-    let kind = kind(stranger);
-    let known = NAMED_BY.iter().find(|(kinds, _)| kinds.contains(&kind));
-    let phrases = known.map_or(std::slice::from_ref(&kind), |(_, phrases)| *phrases);
+    let name = kind(stranger);
+    let logged = LogKind::ALL.iter().find(|kind| kind.stranger() == stranger.name);
+    let phrases = match (logged, name) {
+        (Some(kind), _) => spoiling_phrases(*kind),
+        (None, "axis turned") => OTHER_SIGN,
+        (None, "columns exchanged" | "joints exchanged") => EXCHANGED,
+        (None, _) => std::slice::from_ref(&name),
+    };
     let at_joint = |joint: &String| {
         let is_part_of_a_name = |c: char| c.is_alphanumeric() || c == '_';
         let names = text.split(|c: char| !is_part_of_a_name(c));

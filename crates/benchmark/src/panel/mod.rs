@@ -13,3 +13,4 @@ pub(crate) mod peak_memory;
 pub(crate) mod place;
 pub(crate) mod population_trial;
 pub(crate) mod prediction;
+pub(crate) mod spoiling_phrases;

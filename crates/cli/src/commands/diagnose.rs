@@ -302,6 +302,13 @@ fn extended_toml(
         let lines = report::pack(sizes.iter().map(String::as_str), "; ", COMMENT_WIDTH);
         text.push_str(&format!("# {}\n", lines.join("\n#   ")));
     }
+    if let Some(also) = &diagnosis.also_fitted {
+        let mut places: Vec<String> = also.parameters.iter().map(|p| p.at.words()).collect();
+        places.dedup();
+        let lines = report::pack(places.iter().map(String::as_str), "; ", COMMENT_WIDTH);
+        text.push_str("#\n# Fitted without a name (--only-findings leaves these out):\n");
+        text.push_str(&format!("# {}\n", lines.join("\n# ")));
+    }
     let toml = loaded.to_toml(extended, "robot.urdf").map_err(CliError::Extended)?;
     Ok(format!("{text}\n{toml}"))
 }

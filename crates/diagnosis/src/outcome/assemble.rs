@@ -45,6 +45,7 @@ impl Inputs<'_> {
             findings: self.all_findings(tested, least),
             negligible: self.negligible(tested, least),
             unexplained,
+            also_fitted: tested.also_fitted.clone(),
             ruled_out: self.ruled_out_causes(tested),
             gain: Gain { inverse: tested.gain.inverse.clone() },
             data: self.data(dataset, tested),

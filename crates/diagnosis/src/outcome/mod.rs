@@ -16,6 +16,7 @@ pub(crate) mod second_encoder;
 pub(crate) mod size;
 pub(crate) mod spectrum;
 pub(crate) mod structure;
+pub(crate) mod supplement;
 pub(crate) mod tested_findings;
 pub(crate) mod tone_finding;
 pub(crate) mod torque_noise;

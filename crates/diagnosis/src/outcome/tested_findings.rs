@@ -6,11 +6,12 @@ use crate::outcome::findings::Findings;
 use crate::outcome::gain::HeldOutGain;
 use crate::outcome::held_out::{HeldOutPart, spans};
 use crate::outcome::second_encoder::{SecondEncoder, compare_encoders};
+use crate::outcome::supplement::Supplement;
 use crate::progress::DiagnosisProgress;
 use crate::regression::blocks::{Fold, Folding};
 use crate::regression::fitted_model::FittedModel;
 use crate::regression::problem::Problem;
-use crate::result::RuledOut;
+use crate::result::{AlsoFitted, RuledOut};
 use crate::search::dataset::Dataset;
 use crate::search::inputs::Inputs;
 use crate::search::kept_nominal::KeptNominal;
@@ -26,7 +27,10 @@ pub(crate) struct TestedFindings<'a> {
     pub unseen_friction: Vec<f64>,
     /// Number of hypotheses that were looked for.
     pub hypotheses: usize,
+    /// The gain of what is written: of the findings, and of what is fitted beside them.
     pub gain: HeldOutGain,
+    /// What is fitted beside the findings.
+    pub also_fitted: Option<AlsoFitted>,
     pub kept_nominal: KeptNominal,
     /// Held-out residuals of the models found without each run, and residuals of the nominal model,
     /// `[joint][run][sample]`.
@@ -50,7 +54,16 @@ impl Inputs<'_> {
         let gap = by_run
             .held_out_residuals(|_, run, j| self.design.runs[run].joints[j].residual().collect());
         let Findings { found, ruled_out, unseen_friction } = self.findings(dataset, &causes)?;
-        let extended = self.without_trial_shapes(causes.fitted.robot.clone());
+        let supplement = match self.settings.only_findings {
+            true => None,
+            false => self.find_supplement(dataset, &by_run, &causes, &gain)?,
+        };
+        let also_fitted = supplement.as_ref().map(|s| self.also_fitted(&causes, &gain, s));
+        let (gain, fitted) = match supplement {
+            Some(Supplement { fitted, gain }) => (gain, fitted),
+            None => (gain, causes.fitted.clone()),
+        };
+        let extended = self.without_trial_shapes(fitted.robot);
         let hypotheses = causes.problem.design.groups.len();
         let second_encoder =
             compare_encoders(&extended, self.nominal, self.settings, &self.log, self.inadequate)?;
@@ -64,6 +77,7 @@ impl Inputs<'_> {
             unseen_friction,
             hypotheses,
             gain,
+            also_fitted,
             left,
             gap,
             second_encoder,

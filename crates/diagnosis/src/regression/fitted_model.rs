@@ -5,6 +5,7 @@ use logs::LogError;
 use robot::Robot;
 
 use crate::columns::design::Design;
+use crate::regression::body_errors::{choose_body_errors, prior_of_bodies};
 use crate::regression::extend_robot::extend_robot;
 use crate::regression::gram::Grams;
 use crate::regression::linear_fit::LinearFit;
@@ -47,10 +48,32 @@ impl Refit {
         let design = problem.design.about(&about, log, hypotheses)?;
         let grams = Grams::new(&design, problem.blocks);
         let model: HypothesisSet = (0..design.groups.len()).collect();
-        let info = grams.information(&problem.of, &problem.weight);
-        let weights = physical_inertias(&design, &model, &info, &about, &problem.thresholds.sizes);
-        let (left, expected) = (info.yy, info.deviance(&weights));
-        Ok(Self { about, design, grams, model, weights, left, expected })
+        let (weights, left, expected) = (Vec::new(), 0.0, 0.0);
+        let mut refit = Self { about, design, grams, model, weights, left, expected };
+        refit.fit(problem, &problem.of);
+        Ok(refit)
+    }
+
+    /// Fits the weights of the model to the blocks `of`.
+    fn fit(&mut self, problem: &Problem, of: &[usize]) {
+        let info = self.grams.information(of, &problem.weight);
+        let sizes = &problem.thresholds.sizes;
+        self.weights = physical_inertias(&self.design, &self.model, &info, &self.about, sizes);
+        (self.left, self.expected) = (info.yy, info.deviance(&self.weights));
+    }
+
+    /// A hypothesis whose fitted change of the robot is impossible.
+    fn find_impossible(&self) -> Option<usize> {
+        let (robot, priors) = (self.after_step(1.0), &self.design.priors);
+        self.model.iter().copied().find(|&g| {
+            let group = &self.design.groups[g];
+            let own: Vec<f64> = group.columns.iter().map(|&k| self.weights[k]).collect();
+            let is_change = own.iter().any(|w| w.abs() > 0.0);
+            let hypothesis = group.hypothesis;
+            is_change
+                && !(hypothesis.admissible(&self.about, &own, priors)
+                    && hypothesis.is_sound(&robot, priors))
+        })
     }
 
     /// The robot after a share of the remaining step.
@@ -62,6 +85,7 @@ impl Refit {
 /// The robot with the findings of a model.
 #[derive(Debug, Clone)]
 pub(crate) struct FittedModel {
+    pub model: HypothesisSet,
     /// Weights of the model about the robot without findings.
     pub weights: Vec<f64>,
     pub robot: Robot,
@@ -76,6 +100,50 @@ impl FittedModel {
             Some(Refit { design, weights, .. }) => design.remaining(run, j, weights),
             None => first.remaining(run, j, &self.weights),
         }
+    }
+
+    /// The robot of a model with changes by `hypotheses` beside its own, which keep their sizes. They are not fitted yet.
+    pub fn beside(
+        &self,
+        log: &Log,
+        problem: &Problem,
+        hypotheses: &[Hypothesis],
+    ) -> Result<Self, LogError> {
+        let refit = Some(Refit::new(self.robot.clone(), log, problem, hypotheses)?);
+        Ok(Self { refit, ..self.clone() })
+    }
+
+    /// The errors of the described bodies, in errors of CAD, for which the changes beside the model have the most
+    /// evidence.
+    pub fn choose_body_errors(&self, problem: &Problem, candidates: &[f64]) -> Option<f64> {
+        let Refit { design, grams, about, .. } = self.refit.as_ref()?;
+        let info = grams.information(&problem.of, &problem.weight);
+        choose_body_errors(design, about, &info, candidates)
+    }
+
+    /// Sets the prior of the changes of bodies to `errors` of CAD, if there are any.
+    pub fn set_body_errors(&mut self, errors: Option<f64>) {
+        let (Some(refit), Some(errors)) = (&mut self.refit, errors) else { return };
+        refit.design.prior = prior_of_bodies(&refit.design, &refit.about, errors);
+    }
+
+    /// Fits those changes beside the model that `are_taken` to the blocks `of`, without those whose best size is
+    /// physically impossible, such as a negative rotor inertia.
+    pub fn fit_beside(
+        &mut self,
+        problem: &Problem,
+        of: &[usize],
+        are_taken: impl Fn(Hypothesis) -> bool,
+    ) {
+        let Some(refit) = &mut self.refit else { return };
+        let groups = refit.design.groups.iter().enumerate();
+        refit.model = groups.filter(|(_, g)| are_taken(g.hypothesis)).map(|(g, _)| g).collect();
+        refit.fit(problem, of);
+        while let Some(impossible) = refit.find_impossible() {
+            refit.model.remove(&impossible);
+            refit.fit(problem, of);
+        }
+        self.robot = refit.after_step(1.0);
     }
 
     /// The last linear fit; `first` is the one about the robot without findings.
@@ -108,7 +176,7 @@ pub(crate) fn fit_model(
         model.iter().map(|&g| problem.design.groups[g].hypothesis).collect();
     if !hypotheses.iter().any(|h| h.is_tangent()) {
         let robot = extend_robot(robot, problem.design, model, &first);
-        return Ok(FittedModel { weights: first, robot, refit: None });
+        return Ok(FittedModel { model: model.clone(), weights: first, robot, refit: None });
     }
     let (mut best, mut worse): (Option<Refit>, Option<Refit>) = (None, None);
     let (mut least, mut share) = (problem.info.yy, 1.0);
@@ -143,7 +211,7 @@ pub(crate) fn fit_model(
         || extend_robot(robot, problem.design, model, &first),
         |refit| refit.after_step(1.0),
     );
-    Ok(FittedModel { weights: first, robot, refit })
+    Ok(FittedModel { model: model.clone(), weights: first, robot, refit })
 }
 
 fn scale(weights: &[f64], share: f64) -> Vec<f64> {

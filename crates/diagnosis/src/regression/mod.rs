@@ -2,6 +2,7 @@
 //! sizes about the robot with the findings, and their uncertainty.
 
 pub(crate) mod blocks;
+pub(crate) mod body_errors;
 pub(crate) mod extend_robot;
 pub(crate) mod fit;
 pub(crate) mod fitted_model;

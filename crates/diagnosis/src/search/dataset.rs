@@ -4,9 +4,10 @@ use crate::columns::design::Design;
 use crate::regression::blocks::Block;
 use crate::regression::gram::Grams;
 use crate::regression::noise::Noise;
+use crate::regression::physical_inertias::physical_inertias;
 use crate::regression::problem::{HypothesisSet, Problem};
-use crate::search::everyday::everyday;
 use crate::search::select::Selection;
+use crate::search::start::Start;
 use crate::thresholds::Thresholds;
 
 /// Most rounds of selecting a model and measuring its residual noise.
@@ -22,6 +23,14 @@ pub(crate) struct Dataset<'a> {
     /// Least fall of the held-out RMS error of each joint that counts (N·m or N).
     pub practical: &'a [f64],
     pub thresholds: &'a Thresholds,
+}
+
+/// The model that a search selects.
+#[derive(Debug)]
+pub(crate) struct Selected<'a> {
+    /// Weighted by the noise that the model leaves.
+    pub problem: Problem<'a>,
+    pub model: HypothesisSet,
 }
 
 impl<'a> Dataset<'a> {
@@ -54,29 +63,34 @@ impl<'a> Dataset<'a> {
         times.get(times.len() / 2).copied().unwrap_or(1.0)
     }
 
-    /// The hypotheses that the blocks `of` support, and the problem weighted by their residual noise.
+    /// The model that the blocks `of` support.
     ///
-    /// A search ends where no single change is better, so the answer depends on where it begins. Of the one that begins
-    /// with nothing and the one that begins with what every arm has, the answer with more evidence is taken, both
-    /// weighted by the noise of either.
-    pub fn select_model(&self, of: &[usize]) -> (Problem<'a>, HypothesisSet) {
-        let (of_none, from_none) = self.select_from(of, HypothesisSet::new());
-        let (of_all, from_everyday) = self.select_from(of, everyday(self.design));
+    /// A search ends where no change is better, so the answer depends on where it begins. That of the everyday start is
+    /// taken where it has more evidence by `rival_evidence` after every name has paid the evidence that it needs to
+    /// enter, and physical bodies what they explain less than free ones: the mean of both weightings, by the noise of
+    /// either answer.
+    pub fn select_model(&self, of: &[usize]) -> Selected<'a> {
+        let described = self.select_from(of, Start::Described);
+        let everyday = self.select_from(of, Start::Everyday);
         let evidence = |problem: &Problem, model: &HypothesisSet| {
-            problem.fit(model).map_or(f64::NEG_INFINITY, |fit| fit.evidence)
+            let selection = self.selection(problem);
+            let names: f64 = model.iter().map(|&g| selection.least_evidence(g)).sum();
+            let Some(fit) = problem.fit(model) else { return f64::NEG_INFINITY };
+            let (info, sizes) = (&problem.info, &self.thresholds.sizes);
+            let physical = physical_inertias(self.design, model, info, self.robot, sizes);
+            let lost = info.deviance(&physical) - info.deviance(&fit.expand(self.design.width));
+            fit.evidence - names - 0.5 * lost.max(0.0)
         };
-        let gain =
-            |problem: &Problem| evidence(problem, &from_everyday) - evidence(problem, &from_none);
-        if gain(&of_none) + gain(&of_all) > 0.0 {
-            (of_all, from_everyday)
-        } else {
-            (of_none, from_none)
-        }
+        let gain = |problem: &Problem| {
+            evidence(problem, &everyday.model) - evidence(problem, &described.model)
+        };
+        let mean = 0.5 * (gain(&described.problem) + gain(&everyday.problem));
+        if mean > self.thresholds.search.rival_evidence { everyday } else { described }
     }
 
-    /// The model that a search from the model `start` reaches.
-    fn select_from(&self, of: &[usize], start: HypothesisSet) -> (Problem<'a>, HypothesisSet) {
-        let (mut problem, mut model) = (self.problem(of), start);
+    /// The model that a search from one start reaches.
+    pub fn select_from(&self, of: &[usize], start: Start) -> Selected<'a> {
+        let (mut problem, mut model) = (self.problem(of), start.model(self.design));
         for _ in 0..ROUNDS {
             let next = self.selection(&problem).run(model.clone());
             let is_same = next == model;
@@ -86,7 +100,7 @@ impl<'a> Dataset<'a> {
                 break;
             }
         }
-        (problem, model)
+        Selected { problem, model }
     }
 
     /// A selection on `problem`.

@@ -2,12 +2,10 @@
 
 pub(crate) mod accept;
 pub(crate) mod admit;
-pub(crate) mod body_errors;
 pub(crate) mod causes;
 pub(crate) mod change;
 pub(crate) mod constancy;
 pub(crate) mod dataset;
-pub(crate) mod everyday;
 pub(crate) mod inputs;
 pub(crate) mod kept_nominal;
 pub(crate) mod ledger;
@@ -21,4 +19,5 @@ pub(crate) mod rules;
 pub(crate) mod search_result;
 pub(crate) mod select;
 pub(crate) mod size_rules;
+pub(crate) mod start;
 pub(crate) mod twins;

@@ -48,11 +48,21 @@ impl<'a> Selection<'a> {
         most_evident(exchanges).map(|admitted| admitted.state)
     }
 
-    /// The admissible removal of most evidence.
+    /// The admissible removal of most evidence: removals are asked in the order of the evidence that they cost, those
+    /// of impossible sizes first.
     pub fn best_removal(&self, state: &ModelState<'a>) -> Option<ModelState<'a>> {
-        let removals =
-            state.model.iter().filter_map(|&g| self.admit(state, &Change::leave(g)).ok());
-        most_evident(removals).map(|admitted| admitted.state)
+        let weights = state.fit.expand(self.problem.design.width);
+        let gain = |g: usize| {
+            let is_possible = self.is_admissible(&weights, g).is_ok();
+            let rest = is_possible.then(|| Change::leave(g).rest(&state.model));
+            let fit = rest.map(|rest| self.problem.fit(&rest));
+            fit.map_or(f64::INFINITY, |fit| fit.map_or(f64::NEG_INFINITY, |fit| fit.evidence))
+        };
+        let mut removals: Vec<(usize, f64)> = state.model.iter().map(|&g| (g, gain(g))).collect();
+        removals.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let mut admitted =
+            removals.iter().filter_map(|&(g, _)| self.admit(state, &Change::leave(g)).ok());
+        admitted.next().map(|admitted| admitted.state)
     }
 
     /// A state after all its admissible simplifications: the inertia of the link behind a joint becomes its rotor

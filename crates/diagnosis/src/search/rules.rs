@@ -102,7 +102,8 @@ impl Selection<'_> {
         self.is_body(&state.model, g, &weights)
     }
 
-    fn is_admissible(&self, weights: &[f64], g: usize) -> Result<(), Refusal> {
+    /// The fitted weights of `g` alone are a possible change.
+    pub fn is_admissible(&self, weights: &[f64], g: usize) -> Result<(), Refusal> {
         let group = &self.problem.design.groups[g];
         let own: Vec<f64> = group.columns.iter().map(|&k| weights[k]).collect();
         // Friction whose best level is negative is held at zero, which is no change.

@@ -4,8 +4,9 @@ use robot::Robot;
 use crate::error::DiagnosisError;
 use crate::regression::fitted_model::{FittedModel, fit_model};
 use crate::regression::problem::{HypothesisSet, Problem};
-use crate::search::dataset::Dataset;
+use crate::search::dataset::{Dataset, Selected};
 use crate::search::inputs::Inputs;
+use crate::search::start::Start;
 
 /// The model that a search selects, before any test.
 pub(crate) struct SearchResult<'a> {
@@ -15,21 +16,28 @@ pub(crate) struct SearchResult<'a> {
 }
 
 impl Inputs<'_> {
-    /// The robot with the model of a search over all blocks.
+    /// The robot with the model of a search over all blocks, from the described robot.
     pub fn extended_robot(&self) -> Result<Robot, DiagnosisError> {
         self.with_dataset(|dataset| {
             let all: Vec<usize> = (0..dataset.blocks.len()).collect();
-            Ok(self.search(dataset, &all)?.fitted.robot)
+            let selected = dataset.select_from(&all, Start::Described);
+            Ok(self.fit_selected(selected)?.fitted.robot)
         })?
     }
 
-    /// Searches on the blocks `of`.
+    /// Searches on the blocks `of`, from both starts.
     pub fn search<'b>(
         &self,
         dataset: &Dataset<'b>,
         of: &[usize],
     ) -> Result<SearchResult<'b>, LogError> {
-        let (problem, model) = dataset.select_model(of);
+        self.fit_selected(dataset.select_model(of))
+    }
+
+    fn fit_selected<'b>(
+        &self,
+        Selected { problem, model }: Selected<'b>,
+    ) -> Result<SearchResult<'b>, LogError> {
         let fitted = fit_model(self.robot, &self.log, &problem, &model)?;
         Ok(SearchResult { problem, model, fitted })
     }

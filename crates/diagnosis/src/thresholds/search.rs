@@ -25,9 +25,14 @@ pub struct SearchThresholds {
     /// per cent more rivals in 18 trials; with .5 another link takes the place of the right one
     /// (`tests/diagnosis/found.rs`); with .95 joints of the LWR 4 are worse.
     pub kept_by_bodies: f64,
-    /// How far the bodies of a description may be off, in errors of CAD (1): steps of two from a good description to
-    /// one whose masses are three times too large. The step with the most evidence is taken for the whole robot.
+    /// How far the bodies that are fitted beside the findings may be off, in errors of CAD (1): steps of two from a good
+    /// description to one whose masses are three times too large. The step with the most evidence is taken for the
+    /// whole robot.
     pub body_errors: [f64; 6],
+    /// Least fall of a joint's held-out error for which something is fitted beside the findings (share, 1).
+    pub supplement_gain: f64,
+    /// Largest rise of another joint's held-out error that is accepted for it (share, 1).
+    pub supplement_harm: f64,
     /// Number of partners, the most evident first, that are tried with a hypothesis that predicts no better alone.
     pub partners: usize,
     /// Variation (RMS, as a share of the size, 1) beyond which an effect is not the cause. The laws of bodies, gears and
@@ -55,6 +60,8 @@ impl Default for SearchThresholds {
             remaining_share: 0.5,
             kept_by_bodies: 0.9,
             body_errors: [1.0, 2.0, 4.0, 8.0, 16.0, 32.0],
+            supplement_gain: 0.02,
+            supplement_harm: 0.01,
             partners: 3,
             variation: 0.25,
             variation_of_rough: 0.7,

@@ -64,8 +64,7 @@ impl Effect for InertialParameters {
         (0..PARAMETERS_PER_LINK).map(column).collect()
     }
 
-    /// Some errors of CAD ([`Priors::body_errors`]). A link without a mass is described by nobody: its mass is known to a
-    /// share of that of a mean link, its centre of mass to the length of a link.
+    /// Round numbers: the mass is known to itself plus a third of a mean link, the centre of mass to the length of a link.
     fn prior(
         &self,
         InLink(link): InLink,
@@ -73,11 +72,8 @@ impl Effect for InertialParameters {
         scale: &Scale,
         priors: &Priors,
     ) -> Vec<f64> {
-        if robot.links()[link].inertia.mass > 0.0 {
-            let cad = self.cad_error_sd(InLink(link), robot, priors);
-            return cad.into_iter().map(|sd| priors.body_errors * sd).collect();
-        }
-        let (m, l) = (priors.link_mass_sd_share * scale.link_mass, scale.link_length);
+        let mass = robot.links()[link].inertia.mass.max(0.0);
+        let (m, l) = (mass + priors.link_mass_sd_share * scale.link_mass, scale.link_length);
         let mut sd = vec![m];
         sd.extend([m * l; 3]);
         sd.extend([m * l * l; 6]);

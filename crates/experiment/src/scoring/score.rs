@@ -2,7 +2,6 @@ use diagnosis::{Diagnosis, EffectAt, Finding, RuledOut, Verdict};
 use serde::{Deserialize, Serialize};
 use simulator::Truth;
 
-use crate::gain::Gains;
 use crate::scoring::size::Size;
 use crate::scoring::smallest::of_smallest;
 use crate::scoring::stored;
@@ -32,9 +31,6 @@ pub struct Score {
     /// Findings that are neither injected effects nor rivals of a finding that is one.
     #[serde(deserialize_with = "stored::places")]
     pub stray: Vec<EffectAt>,
-    /// The gain of the findings, where it was measured: at the joint of a single effect, otherwise over all joints.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub gains: Option<Gains>,
 }
 
 /// An injected effect.
@@ -94,7 +90,6 @@ impl Score {
             exactly: among_first(|p| p.finding),
             as_one_of: among_first(|p| p.one_of),
             stray,
-            gains: None,
             findings: findings.into_iter().map(Named::new).collect(),
             injected,
         }

@@ -136,6 +136,7 @@ def diagnose(
     *,
     cutoff_hz: Optional[float] = None,
     without: Sequence[str] = (),
+    only_findings: bool = False,
     progress: Progress = None,
 ) -> Diagnosis:
     """Name what the model of ``robot`` gets wrong in ``logs``, one run each::
@@ -143,7 +144,8 @@ def diagnose(
         effort - nominal effort = sum over effects of columns weights + structure + noise
 
     ``cutoff_hz`` is the cut-off of the low-pass, chosen from the data where it is left out; ``without``
-    names effects that the robot is known not to have. ``progress`` is ``True`` for a bar of tqdm, ``False``
+    names effects that the robot is known not to have; ``only_findings`` leaves out what is fitted beside the
+    findings, without a name. ``progress`` is ``True`` for a bar of tqdm, ``False``
     for none, ``None`` for one where tqdm is installed, or a function(stage, done, steps).
 
     Other threads of Python run meanwhile; Ctrl-C ends the work. Raises ``ValueError`` and ``TypeError``
@@ -155,6 +157,7 @@ def diagnose(
             natives("logs", logs),
             cutoff_hz=_arguments.number_or_none("cutoff_hz", cutoff_hz),
             without=_arguments.texts("without", without),
+            only_findings=only_findings,
             progress=told,
         )
     return Diagnosis._of(found)

@@ -162,6 +162,7 @@ def diagnose(
     *,
     cutoff_hz: Optional[float] = None,
     without: Sequence[str] = ...,
+    only_findings: bool = ...,
     progress: _Progress = None,
 ) -> Diagnosis: ...
 def compare(

@@ -7,8 +7,8 @@ use crate::diagnosis::report::Report;
 use crate::diagnosis::sentence::{bottom_line, verdict_sentence};
 use crate::diagnosis::tables::{name_beside_joint, sizes, words_for_floor};
 use pages::{
-    BOLD, FAINT, TERMINAL_WIDTH, join_names, pack, percent, push_entry, push_warnings, significant,
-    wrap,
+    BOLD, FAINT, TERMINAL_WIDTH, count_noun, join_names, pack, percent, push_entry, push_warnings,
+    significant, wrap,
 };
 
 /// The verdict as text for a terminal of 100 columns, with colours as escape codes that
@@ -48,6 +48,7 @@ pub fn text(report: &Report) -> String {
     for (index, joint) in inadequate {
         block(&mut out, report, index, joint);
     }
+    also_fitted(&mut out, report);
     residual(&mut out, report);
     motions(&mut out, &diagnosis.findings);
     push_warnings(&mut out, &diagnosis.warnings);
@@ -158,6 +159,28 @@ fn bends(out: &mut String, report: &Report, joint: &str) {
     if !used.length_scales.is_empty() {
         note(out, &format!("the Gaussian process bends most with {}", used.bends_with()));
     }
+}
+
+/// What is fitted beside the findings, and where it lowers the error by most.
+fn also_fitted(out: &mut String, report: &Report) {
+    let diagnosis = report.diagnosis;
+    let Some(also) = &diagnosis.also_fitted else { return };
+    let errors = also.rms_named_nm.iter().zip(&diagnosis.gain.inverse.rms_after_nm);
+    let fall = |(joint, (named, all)): (&JointReport, (&f64, &f64))| {
+        (joint.name.clone(), 1.0 - all / named.max(f64::MIN_POSITIVE))
+    };
+    let Some((joint, fall)) =
+        diagnosis.joints.iter().zip(errors).map(fall).max_by(|a, b| a.1.total_cmp(&b.1))
+    else {
+        return;
+    };
+    let sentence = format!(
+        "Fitted without a name: {}, which the logs do not show one by one. The error of the extended model is smaller with them, by {} at {joint}. --only-findings leaves them out.",
+        count_noun(also.parameters.len(), "parameter"),
+        percent(fall)
+    );
+    out.push('\n');
+    wrap(&sentence, TERMINAL_WIDTH).iter().for_each(|line| out.push_str(&format!("{line}\n")));
 }
 
 /// What the residual model is worth, and what to know of it.

@@ -109,7 +109,6 @@ fn score() -> Score {
         exactly: false,
         as_one_of: false,
         stray: vec![at(catalogue::EffectKind::Backlash, "elbow")],
-        gains: None,
         injected: vec![
             Injected {
                 at: friction,

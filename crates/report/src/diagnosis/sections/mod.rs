@@ -1,6 +1,7 @@
 //! The sections of the page of a diagnosis, in their order. A new one is a struct, its template, and
 //! here its module and its place.
 
+pub(crate) mod also_fitted;
 pub(crate) mod before_and_after;
 pub(crate) mod data;
 pub(crate) mod descriptions;
@@ -24,6 +25,7 @@ pub(crate) const OPENING: &[Draw] = &[
 pub(crate) const FOUND: &[Draw] = &[
     |report| draw::<findings::FoundEffects>(report),
     |report| draw::<negligible::NegligibleEffects>(report),
+    |report| draw::<also_fitted::AlsoFittedParameters>(report),
     |report| draw::<unexplained::UnexplainedStructure>(report),
     |report| draw::<joints::Joints>(report),
     |report| draw::<descriptions::Descriptions>(report),
