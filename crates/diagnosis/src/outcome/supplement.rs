@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use crate::outcome::effect_at::effect_at;
 use crate::outcome::gain::HeldOutGain;
+use crate::outcome::torque_noise::TorqueNoise;
 use crate::regression::blocks::Fold;
 use crate::regression::body_errors::is_described_body;
 use crate::regression::fitted_model::FittedModel;
@@ -59,9 +60,9 @@ pub(crate) struct Supplement {
 }
 
 impl Inputs<'_> {
-    /// What is fitted beside the findings, if the robot with it predicts held-out efforts better at some joint by more
-    /// than `supplement_gain` and at none worse by more than `supplement_harm`. Of several, the one with the smallest
-    /// product of the errors of all joints.
+    /// What is fitted beside the findings, if the robot with it predicts held-out efforts better by more than
+    /// `supplement_gain` at some joint where the findings leave more than noise, and at none worse by more than
+    /// `supplement_harm`. Of several, the one with the smallest product of the errors of all joints.
     ///
     /// The findings keep their sizes: what is told of them is what is written.
     pub fn find_supplement(
@@ -72,6 +73,10 @@ impl Inputs<'_> {
         named: &HeldOutGain,
     ) -> Result<Option<Supplement>, LogError> {
         let problem = &causes.problem;
+        let are_open = self.are_above_noise(&named.inverse);
+        if !are_open.contains(&true) {
+            return Ok(None);
+        }
         let add = |found: &FittedModel| {
             found.beside(&self.log, problem, &self.hypotheses_beside(problem, found))
         };
@@ -98,7 +103,7 @@ impl Inputs<'_> {
                 let ratios = Ratios::new(&named.inverse, &gain.inverse);
                 let worse = ratios.worse(t);
                 next = beside.without(&worse).filter(|_| !worse.is_empty());
-                let fall = ratios.fall(t);
+                let fall = ratios.fall(&are_open, t);
                 let is_best = |fall: &f64| best.as_ref().is_none_or(|(most, ..)| fall > most);
                 if let Some(fall) = fall.filter(is_best) {
                     best = Some((fall, beside, gain));
@@ -110,6 +115,14 @@ impl Inputs<'_> {
         fitted.set_body_errors(body_errors);
         fitted.fit_beside(problem, &all, |h| beside.includes(h));
         Ok(Some(Supplement { fitted, gain }))
+    }
+
+    /// The joints at which the findings leave more than the noise whose source is known.
+    fn are_above_noise(&self, named: &InverseGain) -> Vec<bool> {
+        let t = self.thresholds();
+        let noise = TorqueNoise::new(self.nominal, self.design, self.log.prepared, &t.signals);
+        let is_above = |(j, rms): (usize, &f64)| *rms > t.verdict.noise_factor * noise.rms(j).0;
+        named.rms_after_nm.iter().enumerate().map(is_above).collect()
     }
 
     /// What a supplement changes, for the user.
@@ -170,10 +183,11 @@ impl Ratios {
         self.0.iter().enumerate().filter(is_worse).map(|(j, _)| j).collect()
     }
 
-    /// Fall of the logarithm of the errors, summed over joints; `None` where no joint is predicted better by enough, or
-    /// one is predicted worse.
-    fn fall(&self, t: &SearchThresholds) -> Option<f64> {
-        let is_better = self.0.iter().any(|ratio| *ratio < 1.0 - t.supplement_gain);
+    /// Fall of the logarithm of the errors, summed over joints; `None` where no open joint is predicted better by enough,
+    /// or one is predicted worse.
+    fn fall(&self, are_open: &[bool], t: &SearchThresholds) -> Option<f64> {
+        let mut open = self.0.iter().zip(are_open).filter(|(_, is_open)| **is_open);
+        let is_better = open.any(|(ratio, _)| *ratio < 1.0 - t.supplement_gain);
         let fall = || -self.0.iter().map(|ratio| ratio.ln()).sum::<f64>();
         (is_better && self.worse(t).is_empty()).then(fall)
     }
@@ -199,9 +213,11 @@ mod tests {
     #[test]
     fn a_supplement_is_better_somewhere_and_worse_nowhere() {
         let t = SearchThresholds::default();
-        let of = |with: &[f64]| Ratios::new(&gain(&[1.0, 2.0, 0.0]), &gain(with)).fall(&t);
+        let open = [true, false, true];
+        let of = |with: &[f64]| Ratios::new(&gain(&[1.0, 2.0, 0.0]), &gain(with)).fall(&open, &t);
         assert!((of(&[0.5, 2.0, 0.0]).unwrap() - 2.0_f64.ln()).abs() < 1e-12);
         assert_eq!(of(&[0.99, 2.0, 0.0]), None);
+        assert_eq!(of(&[1.0, 1.0, 0.0]), None, "the second joint is at its noise");
         assert_eq!(of(&[0.5, 2.06, 0.0]), None);
     }
 
