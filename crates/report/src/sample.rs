@@ -2,9 +2,9 @@
 
 use catalogue::EffectKind;
 use diagnosis::{
-    DataSummary, Dependence, Diagnosis, EffectAt, Estimate, Finding, FoldGain, Gain, InverseGain,
-    JointReport, JointTraces, NoiseFloorSource, NoiseSpectrum, RuledOut, RunSummary, RunTraces,
-    SCHEMA, Unexplained, Verdict,
+    AlsoFitted, DataSummary, Dependence, Diagnosis, EffectAt, Estimate, Finding, FittedParameter,
+    FoldGain, Gain, InverseGain, JointReport, JointTraces, NoiseFloorSource, NoiseSpectrum,
+    RuledOut, RunSummary, RunTraces, SCHEMA, Unexplained, Verdict,
 };
 use experiment::{Drift, ForwardGap, ForwardWindow};
 use quick_xml::Reader;
@@ -128,6 +128,14 @@ fn link(index: usize, joint: &str) -> Link {
         actuator: Actuator::default(),
         merged: Vec::new(),
     }
+}
+
+/// A rotor of .05 kg m2 that is fitted as .07; without it the shoulder is off by .5 N m.
+pub fn also_fitted() -> AlsoFitted {
+    let at =
+        EffectAt { effect: EffectKind::RotorInertia, joint: Some("shoulder".into()), link: None };
+    let rotor = FittedParameter { at, name: "inertia", value: 0.07, before: 0.05, unit: "kg m^2" };
+    AlsoFitted { parameters: vec![rotor], rms_named_nm: vec![0.5, 0.5] }
 }
 
 fn diagnosis(names: &[&str]) -> Diagnosis {

@@ -1,6 +1,7 @@
 use effects::Hypothesis;
 use logs::LogError;
 use rayon::prelude::*;
+use robot::TorqueSource;
 
 use crate::outcome::effect_at::effect_at;
 use crate::outcome::gain::HeldOutGain;
@@ -64,7 +65,8 @@ impl Inputs<'_> {
     /// `supplement_gain` at some joint where the findings leave more than noise, and at none worse by more than
     /// `supplement_harm`. Of several, the one with the smallest product of the errors of all joints.
     ///
-    /// The findings keep their sizes: what is told of them is what is written.
+    /// The findings keep their sizes: what is told of them is what is written. What is fitted has not seen the held-out
+    /// efforts, but which of a few sets is taken depends on them.
     pub fn find_supplement(
         &self,
         dataset: &Dataset,
@@ -86,31 +88,31 @@ impl Inputs<'_> {
         let mut folds: Vec<FittedModel> =
             named.folds.par_iter().map(add).collect::<Result<_, LogError>>()?;
         folds.iter_mut().for_each(|fitted| fitted.set_body_errors(body_errors));
-        let mut fit = |beside: &Beside| {
+        let fit = |folds: &mut Vec<FittedModel>, beside: &Beside| {
             let of_fold = |(fitted, fold): (&mut FittedModel, &Fold)| {
                 fitted.fit_beside(problem, &fold.train, |h| beside.includes(h));
             };
             folds.par_iter_mut().zip(&by_run.folds).for_each(of_fold);
-            let gain = HeldOutGain::new(dataset, by_run, std::mem::take(&mut folds));
-            folds.clone_from(&gain.folds);
-            gain
+            HeldOutGain::new(dataset, by_run, std::mem::take(folds))
         };
-        let mut best: Option<(f64, Beside, HeldOutGain)> = None;
+        let mut best: Option<(f64, Beside)> = None;
         for start in Beside::starts(self.design.joints()) {
             let mut next = Some(start);
             while let Some(beside) = next {
-                let gain = fit(&beside);
+                let gain = fit(&mut folds, &beside);
+                folds = gain.folds;
                 let ratios = Ratios::new(&named.inverse, &gain.inverse);
                 let worse = ratios.worse(t);
                 next = beside.without(&worse).filter(|_| !worse.is_empty());
                 let fall = ratios.fall(&are_open, t);
-                let is_best = |fall: &f64| best.as_ref().is_none_or(|(most, ..)| fall > most);
+                let is_best = |fall: &f64| best.as_ref().is_none_or(|(most, _)| fall > most);
                 if let Some(fall) = fall.filter(is_best) {
-                    best = Some((fall, beside, gain));
+                    best = Some((fall, beside));
                 }
             }
         }
-        let Some((_, beside, gain)) = best else { return Ok(None) };
+        let Some((_, beside)) = best else { return Ok(None) };
+        let gain = fit(&mut folds, &beside);
         let all: Vec<usize> = (0..dataset.blocks.len()).collect();
         fitted.set_body_errors(body_errors);
         fitted.fit_beside(problem, &all, |h| beside.includes(h));
@@ -121,7 +123,11 @@ impl Inputs<'_> {
     fn are_above_noise(&self, named: &InverseGain) -> Vec<bool> {
         let t = self.thresholds();
         let noise = TorqueNoise::new(self.nominal, self.design, self.log.prepared, &t.signals);
-        let is_above = |(j, rms): (usize, &f64)| *rms > t.verdict.noise_factor * noise.rms(j).0;
+        let is_above = |(j, rms): (usize, &f64)| {
+            let source = self.nominal.links()[j].actuator.torque_source;
+            let factor = t.verdict.noise_factor_of(source == TorqueSource::Commanded);
+            *rms > factor * noise.rms(j).0
+        };
         named.rms_after_nm.iter().enumerate().map(is_above).collect()
     }
 

@@ -67,8 +67,7 @@ impl Situation<'_> {
     /// Whether the residual may be noise.
     fn is_noise(&self) -> bool {
         let t = self.thresholds;
-        let most = if self.is_command { t.commanded_noise_factor } else { t.noise_factor };
-        self.is_within(most, self.floor())
+        self.is_within(t.noise_factor_of(self.is_command), self.floor())
     }
 
     /// Whether the residual may be noise but is large enough to contain an effect that matters.

@@ -21,6 +21,13 @@ pub struct VerdictThresholds {
     pub mostly_above: f64,
 }
 
+impl VerdictThresholds {
+    /// Ratio of the residual to the noise up to which it counts as noise, for a commanded or a measured effort (RMS, 1).
+    pub fn noise_factor_of(&self, is_command: bool) -> f64 {
+        if is_command { self.commanded_noise_factor } else { self.noise_factor }
+    }
+}
+
 impl Default for VerdictThresholds {
     fn default() -> Self {
         Self {

@@ -90,6 +90,27 @@ mod tests {
     }
 
     #[test]
+    fn what_has_no_name_stands_under_a_heading_of_its_own() {
+        let mut sample = sample::arm();
+        assert!(!super::html(&sample.report()).unwrap().contains("Fitted without a name"));
+        sample.diagnosis.also_fitted = Some(sample::also_fitted());
+        let page = super::html(&sample.report()).unwrap();
+        let section = page.split("Fitted without a name</h2>").nth(1).unwrap();
+        let section = section.split("</section>").next().unwrap();
+        for expected in [
+            "at joint shoulder",
+            "IN03 rotor inertia",
+            ">0.0700<",
+            ">0.0500<",
+            "0.500 N·m",
+            "0.400 N·m",
+            "kg·m²",
+        ] {
+            assert!(section.contains(expected), "{expected} is missing in {section}");
+        }
+    }
+
+    #[test]
     fn a_joint_that_the_log_does_not_show_is_grey_and_comes_last() {
         let mut sample = sample::arm();
         sample.diagnosis.joints[0].verdict = diagnosis::Verdict::DataInadequate;

@@ -328,6 +328,11 @@ warning: elbow: quantised in steps of 0.01 N m
         assert!(coloured.contains("\u{1b}["));
         let plain = without_escapes(&coloured);
         assert_eq!(plain, EXPECTED);
+        let mut sample = sample;
+        sample.diagnosis.also_fitted = Some(sample::also_fitted());
+        let said = without_escapes(&text(&sample.report())).replace('\n', " ");
+        let worth = "smaller with them, by 20 % at shoulder. --only-findings leaves them out.";
+        assert!(said.contains("without a name: 1 parameter,") && said.contains(worth), "{said}");
         assert!(plain.lines().all(|line| line.chars().count() <= TERMINAL_WIDTH));
     }
 

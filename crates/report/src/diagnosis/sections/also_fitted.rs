@@ -1,6 +1,6 @@
 use askama::Template;
 use diagnosis::FittedParameter;
-use pages::{ReportError, significant};
+use pages::{ReportError, significant, unit};
 
 use crate::diagnosis::places::JointUnits;
 use crate::diagnosis::report::Report;
@@ -12,7 +12,7 @@ use crate::diagnosis::tables::place_of;
 #[template(path = "diagnosis/sections/also_fitted.html")]
 pub(crate) struct AlsoFittedParameters {
     joints: Vec<ErrorRow>,
-    parameters: Vec<ParameterRow>,
+    parameters: Vec<FittedRow>,
 }
 
 impl<'a> Section<'a> for AlsoFittedParameters {
@@ -27,13 +27,13 @@ impl<'a> Section<'a> for AlsoFittedParameters {
             unit: JointUnits::of(report.robot, &joint.name).effort.to_owned(),
         };
         let joints = diagnosis.joints.iter().zip(errors).map(row).collect();
-        let row = |parameter: &FittedParameter| ParameterRow {
+        let row = |parameter: &FittedParameter| FittedRow {
             place: place_of(&parameter.at),
             effect: parameter.at.effect.label(),
-            name: parameter.name,
+            name: parameter.name.replace('_', " "),
             before: significant(parameter.before, 3),
             value: significant(parameter.value, 3),
-            unit: parameter.unit,
+            unit: unit(parameter.unit),
         };
         let parameters = also.parameters.iter().map(row).collect();
         Ok(Some(Self { joints, parameters }))
@@ -49,11 +49,11 @@ struct ErrorRow {
 }
 
 /// A parameter in the robot with the findings alone and in the extended robot, as text.
-struct ParameterRow {
+struct FittedRow {
     place: String,
     effect: String,
-    name: &'static str,
+    name: String,
     before: String,
     value: String,
-    unit: &'static str,
+    unit: String,
 }
