@@ -26,6 +26,7 @@ mod repeats;
 mod rivals;
 mod second_encoder;
 mod shared_motors;
+mod supplement;
 mod together;
 mod transplants;
 mod trials;

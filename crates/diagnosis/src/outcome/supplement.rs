@@ -144,7 +144,9 @@ impl Inputs<'_> {
         let parameters = hypotheses.flat_map(|hypothesis| {
             let at = effect_at(self.nominal, hypothesis);
             let quantities = hypothesis.quantities(&causes.fitted.robot, &supplement.fitted.robot);
-            quantities.into_iter().map(move |quantity| FittedParameter {
+            // A size held at its bound, such as a rotor without inertia, is no change.
+            let changed = quantities.into_iter().filter(|q| (q.value - q.nominal).abs() > 0.0);
+            changed.map(move |quantity| FittedParameter {
                 at: at.clone(),
                 name: quantity.name,
                 value: quantity.value,
