@@ -1,5 +1,3 @@
-use robot::TorqueSource;
-
 use crate::columns::run_design::{JointDesign, RunDesign};
 use crate::outcome::finding_builder::FindingWithFall;
 use crate::outcome::limit_finding::limit_finding;
@@ -82,7 +80,7 @@ impl Inputs<'_> {
             remaining_rms: rms(&rest),
             samples: independent(&rest),
             noise: noise.rms(j),
-            is_command: self.nominal.links()[j].actuator.torque_source == TorqueSource::Commanded,
+            source: self.nominal.links()[j].actuator.torque_source,
             near_rest: self.near_rest(j),
             keeps_nominal: tested.kept_nominal.has_dropped_at(self.design, j),
             practical: self.settings.open_share,

@@ -1,7 +1,6 @@
 use effects::Hypothesis;
 use logs::LogError;
 use rayon::prelude::*;
-use robot::TorqueSource;
 
 use crate::outcome::effect_at::effect_at;
 use crate::outcome::gain::HeldOutGain;
@@ -125,7 +124,7 @@ impl Inputs<'_> {
         let noise = TorqueNoise::new(self.nominal, self.design, self.log.prepared, &t.signals);
         let is_above = |(j, rms): (usize, &f64)| {
             let source = self.nominal.links()[j].actuator.torque_source;
-            let factor = t.verdict.noise_factor_of(source == TorqueSource::Commanded);
+            let factor = t.verdict.noise_factor_of(source);
             *rms > factor * noise.rms(j).0
         };
         named.rms_after_nm.iter().enumerate().map(is_above).collect()

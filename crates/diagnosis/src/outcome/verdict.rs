@@ -1,3 +1,5 @@
+use robot::TorqueSource;
+
 use crate::outcome::size::size;
 use crate::result::{NoiseFloorSource, Verdict};
 use crate::thresholds::verdict::VerdictThresholds;
@@ -32,8 +34,8 @@ pub(crate) struct Situation<'a> {
     pub samples: f64,
     /// Noise of the effort, and its source.
     pub noise: (f64, NoiseFloorSource),
-    /// Whether the effort is a command.
-    pub is_command: bool,
+    /// What the effort is.
+    pub source: TorqueSource,
     /// RMS of the described dry friction near changes of direction, which no model can predict (N·m or N).
     pub near_rest: f64,
     /// Share of the effort below which a residual does not matter.
@@ -67,7 +69,7 @@ impl Situation<'_> {
     /// Whether the residual may be noise.
     fn is_noise(&self) -> bool {
         let t = self.thresholds;
-        self.is_within(t.noise_factor_of(self.is_command), self.floor())
+        self.is_within(t.noise_factor_of(self.source), self.floor())
     }
 
     /// Whether the residual may be noise but is large enough to contain an effect that matters.
@@ -234,7 +236,7 @@ mod tests {
             remaining_rms,
             samples: 450.0,
             noise: (noise, NoiseFloorSource::Effort),
-            is_command: false,
+            source: TorqueSource::Measured,
             near_rest: 0.0,
             practical: 0.02,
             structure: 0.0,
@@ -258,7 +260,9 @@ mod tests {
     #[test]
     fn more_room_than_noise_has_closes_no_joint_of_which_it_is_a_sixth() {
         let command = |findings, torque_rms| {
-            Situation { torque_rms, is_command: true, ..joint(findings, 1.7, 1.2) }.verdict().0
+            Situation { torque_rms, source: TorqueSource::Commanded, ..joint(findings, 1.7, 1.2) }
+                .verdict()
+                .0
         };
         assert_eq!(command(0, 12.0), Verdict::Consistent);
         assert_eq!(command(0, 11.0), Verdict::DataInadequate);

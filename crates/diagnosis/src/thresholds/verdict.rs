@@ -1,3 +1,5 @@
+use robot::TorqueSource;
+
 /// What the residual of a joint means.
 #[derive(Debug, Clone, PartialEq)]
 pub struct VerdictThresholds {
@@ -22,9 +24,13 @@ pub struct VerdictThresholds {
 }
 
 impl VerdictThresholds {
-    /// Ratio of the residual to the noise up to which it counts as noise, for a commanded or a measured effort (RMS, 1).
-    pub fn noise_factor_of(&self, is_command: bool) -> f64 {
-        if is_command { self.commanded_noise_factor } else { self.noise_factor }
+    /// Ratio of the residual to the noise up to which it counts as noise, for an effort of that source (RMS, 1).
+    pub fn noise_factor_of(&self, source: TorqueSource) -> f64 {
+        if source == TorqueSource::Commanded {
+            self.commanded_noise_factor
+        } else {
+            self.noise_factor
+        }
     }
 }
 
