@@ -65,32 +65,46 @@ impl<'a> Dataset<'a> {
 
     /// The model that the blocks `of` support.
     ///
-    /// A search ends where no change is better, so the answer depends on where it begins. That of the everyday start is
+    /// A search ends where no change is better, so the answer depends on where it begins: with the robot as described,
+    /// with the everyday effects of every joint, or with what either of these finds. Another answer than the first is
     /// taken where it has more evidence by `rival_evidence` after every name has paid the evidence that it needs to
     /// enter, and physical bodies what they explain less than free ones: the mean of both weightings, by the noise of
     /// either answer.
     pub fn select_model(&self, of: &[usize]) -> Selected<'a> {
-        let described = self.select_from(of, Start::Described);
-        let everyday = self.select_from(of, Start::Everyday);
-        let evidence = |problem: &Problem, model: &HypothesisSet| {
-            let selection = self.selection(problem);
-            let names: f64 = model.iter().map(|&g| selection.least_evidence(g)).sum();
-            let Some(fit) = problem.fit(model) else { return f64::NEG_INFINITY };
-            let (info, sizes) = (&problem.info, &self.thresholds.sizes);
-            let physical = physical_inertias(self.design, model, info, self.robot, sizes);
-            let lost = info.deviance(&physical) - info.deviance(&fit.expand(self.design.width));
-            fit.evidence - names - 0.5 * lost.max(0.0)
+        let described = self.select_from(of, Start::Described.model(self.design));
+        let everyday = self.select_from(of, Start::Everyday.model(self.design));
+        if described.model == everyday.model {
+            return described;
+        }
+        let united =
+            self.select_from(of, described.model.union(&everyday.model).copied().collect());
+        let gain = |other: &Selected| {
+            let over = |problem: &Problem| {
+                self.evidence_after_names(problem, &other.model)
+                    - self.evidence_after_names(problem, &described.model)
+            };
+            0.5 * (over(&described.problem) + over(&other.problem))
         };
-        let gain = |problem: &Problem| {
-            evidence(problem, &everyday.model) - evidence(problem, &described.model)
-        };
-        let mean = 0.5 * (gain(&described.problem) + gain(&everyday.problem));
-        if mean > self.thresholds.search.rival_evidence { everyday } else { described }
+        let (of_everyday, of_united) = (gain(&everyday), gain(&united));
+        let (most, other) =
+            if of_united > of_everyday { (of_united, united) } else { (of_everyday, everyday) };
+        if most > self.thresholds.search.rival_evidence { other } else { described }
     }
 
-    /// The model that a search from one start reaches.
-    pub fn select_from(&self, of: &[usize], start: Start) -> Selected<'a> {
-        let (mut problem, mut model) = (self.problem(of), start.model(self.design));
+    /// The evidence of a model less what its names need to enter, and less what its bodies explain beyond physical ones.
+    fn evidence_after_names(&self, problem: &Problem, model: &HypothesisSet) -> f64 {
+        let selection = self.selection(problem);
+        let names: f64 = model.iter().map(|&g| selection.least_evidence(g)).sum();
+        let Some(fit) = problem.fit(model) else { return f64::NEG_INFINITY };
+        let (info, sizes) = (&problem.info, &self.thresholds.sizes);
+        let physical = physical_inertias(self.design, model, info, self.robot, sizes);
+        let lost = info.deviance(&physical) - info.deviance(&fit.expand(self.design.width));
+        fit.evidence - names - 0.5 * lost.max(0.0)
+    }
+
+    /// The model that a search reaches which begins with `start`.
+    pub fn select_from(&self, of: &[usize], start: HypothesisSet) -> Selected<'a> {
+        let (mut problem, mut model) = (self.problem(of), start);
         for _ in 0..ROUNDS {
             let next = self.selection(&problem).run(model.clone());
             let is_same = next == model;

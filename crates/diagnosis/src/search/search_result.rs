@@ -20,12 +20,12 @@ impl Inputs<'_> {
     pub fn extended_robot(&self) -> Result<Robot, DiagnosisError> {
         self.with_dataset(|dataset| {
             let all: Vec<usize> = (0..dataset.blocks.len()).collect();
-            let selected = dataset.select_from(&all, Start::Described);
+            let selected = dataset.select_from(&all, Start::Described.model(dataset.design));
             Ok(self.fit_selected(selected)?.fitted.robot)
         })?
     }
 
-    /// Searches on the blocks `of`, from both starts.
+    /// Searches on the blocks `of`, from three starts.
     pub fn search<'b>(
         &self,
         dataset: &Dataset<'b>,

@@ -10,7 +10,7 @@ use crate::motion::scale::Scale;
 use crate::place::{AtJoint, every_joint};
 use crate::priors::Priors;
 use crate::quantity::{EffectQuantity, actuator_quantity};
-use crate::traits::{Imitable, Law, Linearity, Location, Traits, Weights};
+use crate::traits::{Imitable, Law, Linearity, Location, Relation, Traits, Weights};
 
 /// `offset`: one weight a joint, the change of the effort reported at zero torque.
 pub(crate) struct TorqueOffset;
@@ -22,14 +22,16 @@ impl Effect for TorqueOffset {
         EffectKind::TorqueOffset
     }
 
+    /// Where a joint turns mostly one way, an offset and dry friction are alike, and every joint has dry friction.
     fn traits(&self) -> Traits {
+        const RELATIONS: &[Relation] = &[Relation::PlainerHere(EffectKind::CoulombFriction)];
         Traits::new(
             Linearity::Exact,
             Imitable::No,
             Law::Exact,
             Location::Elsewhere,
             Weights::Direct,
-            &[],
+            RELATIONS,
         )
     }
 
