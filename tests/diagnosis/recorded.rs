@@ -11,7 +11,7 @@ use diagnosis::{Diagnosis, Settings, Silent, Verdict, diagnose};
 use logs::{ReadOptions, Run, read_run};
 use robot::Robot;
 
-use crate::world::finding;
+use crate::world::{finding, named};
 
 const FRICTIONS: [EffectKind; 3] =
     [EffectKind::ViscousFriction, EffectKind::CoulombFriction, EffectKind::AsymmetricFriction];
@@ -111,6 +111,18 @@ fn recorded_kinova_gets_no_asymmetry_that_may_be_none() {
     let of = |kind| joints_with(&answer, &[kind]).contains(&"joint_2".to_owned());
     assert!(of(EffectKind::CoulombFriction), "{found:?}");
     assert!(!of(EffectKind::AsymmetricFriction), "{found:?}");
+}
+
+/// Without one run joint 1 turns mostly one way, and an offset of 2.9 N m explains what dry friction does.
+#[test]
+fn recorded_kinova_has_dry_friction_where_an_offset_explains_as_much() {
+    let Some(folder) = folder() else { return };
+    let robot = robot_of(&folder, "kinova_gen3");
+    let runs: Vec<&str> = KINOVA.into_iter().filter(|run| *run != "opti_traj_testing1").collect();
+    let answer = diagnosis(&robot, &folder.join("kinova_gen3"), &runs, "effort");
+    let friction = finding(&answer, "Coulomb friction at joint_1");
+    assert!(friction.is_some(), "{:?}", named(&answer));
+    assert!(finding(&answer, "torque offset at joint_1").is_none());
 }
 
 /// The runs that have a column `effort_sensor`.
