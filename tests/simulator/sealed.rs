@@ -12,13 +12,13 @@ const FORMATS: [LogFormat; 2] = [LogFormat::Parquet, LogFormat::Csv];
 
 /// Everything that a folder of logs tells besides numbers: files, columns, metadata.
 #[derive(Debug, PartialEq)]
-struct Told {
+struct Blinded {
     files: BTreeSet<String>,
     /// Of the log in both formats: its header or schema, and who made it.
     log: Vec<String>,
 }
 
-fn told(more: &str) -> Told {
+fn blind(more: &str) -> Blinded {
     let scenario = scenario(more);
     let simulation = simulate(&scenario, &|| {}).unwrap();
     let folder = tempfile::tempdir().unwrap();
@@ -31,7 +31,7 @@ fn told(more: &str) -> Told {
     let csv = fs::read_to_string(folder.path().join("one.csv")).unwrap();
     log.push(csv.lines().next().unwrap().to_owned());
     assert!(csv.lines().skip(1).all(|row| row.split(',').all(|x| x.parse::<f64>().is_ok())));
-    Told { files, log }
+    Blinded { files, log }
 }
 
 /// All text of a Parquet file: its footer, and the Arrow schema that is encoded in it.
@@ -50,14 +50,14 @@ fn metadata(path: &Path) -> Vec<String> {
 
 #[test]
 fn a_log_tells_the_same_whatever_was_put_in() {
-    let without = told("");
+    let without = blind("");
     let files = ["one.csv", "one.parquet", "scenario.toml", "truth.json"].map(str::to_owned);
     assert_eq!(without.files, BTreeSet::from(files));
     for effect in EFFECTS {
-        assert_eq!(told(&format!("[[effect]]\n{effect}")), without, "{effect}");
+        assert_eq!(blind(&format!("[[effect]]\n{effect}")), without, "{effect}");
     }
     let hidden = "[hidden]\ncount = [1, 1]\nfrom = ['viscous_friction', 'coulomb_friction']";
-    assert_eq!(told(hidden), without);
+    assert_eq!(blind(hidden), without);
 }
 
 /// What is never said of a log.
@@ -69,7 +69,7 @@ fn words(kind: EffectKind) -> impl Iterator<Item = &'static str> {
 /// Whole words: `ratio` is in `acceleration`.
 #[test]
 fn no_name_of_an_effect_or_of_its_parameters_is_in_a_log() {
-    let text = told(&format!("[[effect]]\n{}", EFFECTS[0])).log.join("\n").to_lowercase();
+    let text = blind(&format!("[[effect]]\n{}", EFFECTS[0])).log.join("\n").to_lowercase();
     let names = text.split(|c: char| !c.is_ascii_alphabetic() && c != '_');
     let said: BTreeSet<&str> = names.flat_map(|name| name.split('_').chain([name])).collect();
     for expected in ["effort", "velocity", "elbow", "desired_acceleration", "parquet"] {

@@ -14,7 +14,7 @@
 mod colour;
 mod role;
 #[cfg(test)]
-mod sight;
+mod vision;
 
 pub use colour::{Colour, Rgb};
 pub use role::{MODELS, Role, model};

@@ -63,7 +63,7 @@ pub fn model(index: usize) -> Colour {
 mod tests {
     use super::*;
     use crate::colour::Rgb;
-    use crate::sight::{contrast, least_difference};
+    use crate::vision::{contrast, least_difference};
 
     /// A ground, and which of a colour's two values stands on it.
     type Ground = (Rgb, fn(Colour) -> Rgb);

@@ -18,6 +18,7 @@ pub(crate) mod rivals;
 pub(crate) mod rules;
 pub(crate) mod search_result;
 pub(crate) mod select;
+pub(crate) mod select_model;
 pub(crate) mod size_rules;
 pub(crate) mod start;
 pub(crate) mod twins;

@@ -4,8 +4,9 @@ use robot::Robot;
 use crate::error::DiagnosisError;
 use crate::regression::fitted_model::{FittedModel, fit_model};
 use crate::regression::problem::{HypothesisSet, Problem};
-use crate::search::dataset::{Dataset, Selected};
+use crate::search::dataset::Dataset;
 use crate::search::inputs::Inputs;
+use crate::search::select_model::Selected;
 use crate::search::start::Start;
 
 /// The model that a search selects, before any test.

@@ -21,6 +21,8 @@ pub(crate) struct Selection<'a> {
     pub robot: &'a Robot,
     /// Least fall of the held-out RMS error of each joint that counts (N·m or N).
     pub practical: Vec<f64>,
+    /// A hypothesis that may not enter.
+    pub barred: Option<usize>,
 }
 
 impl<'a> Selection<'a> {
@@ -70,7 +72,7 @@ impl<'a> Selection<'a> {
     /// Gain in log evidence (nats) from adding `g` to a model, whose fit is `fit`.
     pub fn evidence_gain(&self, model: &HypothesisSet, fit: &Fit, g: usize) -> f64 {
         let columns = self.problem.new_columns(model, g);
-        if columns.is_empty() || self.is_excluded(model, g) {
+        if columns.is_empty() || self.barred == Some(g) || self.is_excluded(model, g) {
             f64::NEG_INFINITY
         } else if self.adds_to_simpler(g) {
             self.evidence_beyond_simpler(model, g)

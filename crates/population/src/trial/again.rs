@@ -26,7 +26,7 @@ pub fn sheet_again(folder: &Path) -> Result<TruthSheet, PopulationError> {
     let scenario = folder.join("truth").join("scenario.toml");
     let scenario = Scenario::from_document(&Document::read(&scenario)?)?;
     let nominal = Robot::load(&folder.join("nominal").join("robot.toml"))?.robot;
-    let (friction, causes) = everyday(scenario.effects(), scenario.robot().joint_count());
+    let (friction, causes) = split_friction(scenario.effects(), scenario.robot().joint_count());
     let hidden = HiddenThings { causes, strangers: scenario.strangers().to_vec() };
     if old.corner.field.contains(&FieldFeature::PayloadChanged) {
         let reason = "its payload changes between runs, a trial of one arm was expected".to_owned();
@@ -49,7 +49,7 @@ pub fn sheet_again(folder: &Path) -> Result<TruthSheet, PopulationError> {
 }
 
 /// The everyday friction with which the effects of a trial begin, two a joint, and the effects behind it.
-fn everyday(effects: &[EffectSpec], joints: usize) -> (Vec<Friction>, Vec<EffectSpec>) {
+fn split_friction(effects: &[EffectSpec], joints: usize) -> (Vec<Friction>, Vec<EffectSpec>) {
     let mut friction = vec![Friction { coulomb: 0.0, viscous: 0.0 }; joints];
     let count = (2 * joints).min(effects.len());
     for (k, effect) in effects[..count].iter().enumerate() {

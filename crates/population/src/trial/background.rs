@@ -17,7 +17,11 @@ pub(crate) const MOST_DRY: f64 = 900.0;
 
 /// Draws everyday friction at every joint: half to twice the drive's typical dry level, and viscous friction
 /// that at the joint's largest speed is a tenth of that level to all of it.
-pub(crate) fn everyday(robot: &Robot, usual: &[f64], random: &mut ChaCha8Rng) -> Vec<Friction> {
+pub(crate) fn draw_friction(
+    robot: &Robot,
+    usual: &[f64],
+    random: &mut ChaCha8Rng,
+) -> Vec<Friction> {
     let joint = |(link, usual): (&robot::Link, &f64)| {
         let coulomb = (usual * 2.0_f64.powf(random.random_range(-1.0..1.0))).min(MOST_DRY);
         let speed = link.joint.limits.velocity.unwrap_or(2.0).max(0.1);

@@ -20,7 +20,7 @@ use crate::robot_files::RobotFiles;
 use crate::sheet::{Knowledge, TrueStranger, TruthSheet};
 use crate::spec::PopulationSpec;
 use crate::text_file::write_text;
-use crate::trial::background::{Friction, effects, everyday};
+use crate::trial::background::{Friction, draw_friction, effects};
 use crate::trial::field::faults::FieldFaults;
 use crate::trial::known::{NominalKnowledge, describe};
 use crate::trial::log_draw::LogDraw;
@@ -177,7 +177,7 @@ impl Draft {
             Ok::<_, PopulationError>((Robot::load(&file)?, file))
         };
         let (truth, truth_file) = in_folder("truth", &bench.truth)?;
-        let friction = faults.friction(everyday(&truth.robot, &bench.friction, random));
+        let friction = faults.friction(draw_friction(&truth.robot, &bench.friction, random));
         let known = match model {
             _ if bench.sensors.effort == EffortSource::Link => NominalKnowledge::BodiesAlone,
             Model::Right => NominalKnowledge::Exactly,

@@ -1,0 +1,118 @@
+use rayon::prelude::*;
+
+use crate::regression::physical_inertias::physical_inertias;
+use crate::regression::problem::{HypothesisSet, Problem};
+use crate::search::dataset::Dataset;
+use crate::search::select::Selection;
+use crate::search::start::Start;
+
+/// Most rounds of selecting a model and measuring its residual noise, and most sets that take the place of one cause.
+const ROUNDS: usize = 4;
+
+/// The model that a search selects.
+#[derive(Debug)]
+pub(crate) struct Selected<'a> {
+    /// Weighted by the noise that the model leaves.
+    pub problem: Problem<'a>,
+    pub model: HypothesisSet,
+}
+
+impl<'a> Dataset<'a> {
+    /// The model that the blocks `of` support.
+    ///
+    /// A search ends where no change is better, so the answer depends on where it begins: with the robot as described,
+    /// with the everyday effects of every joint, or with what either of these finds. Another answer than the first is
+    /// taken where it has more evidence by `rival_evidence` after every name has paid the evidence that it needs to
+    /// enter, and physical bodies what they explain less than free ones: the mean of both weightings, by the noise of
+    /// either answer.
+    pub fn select_model(&self, of: &[usize]) -> Selected<'a> {
+        let described = self.select_from(of, Start::Described.model(self.design));
+        let everyday = self.select_from(of, Start::Everyday.model(self.design));
+        if described.model == everyday.model {
+            return self.with_sets_in_place_of_one(of, described);
+        }
+        let united =
+            self.select_from(of, described.model.union(&everyday.model).copied().collect());
+        let of_everyday = self.gain_over(&described, &everyday);
+        let of_united = self.gain_over(&described, &united);
+        let (most, other) =
+            if of_united > of_everyday { (of_united, united) } else { (of_everyday, everyday) };
+        let best = if most > self.thresholds.search.rival_evidence { other } else { described };
+        self.with_sets_in_place_of_one(of, best)
+    }
+
+    /// The answer after causes that are not everyday gave way to sets of others, one after the other, while that has
+    /// more evidence by `rival_evidence`.
+    fn with_sets_in_place_of_one(&self, of: &[usize], mut best: Selected<'a>) -> Selected<'a> {
+        let is_odd = |g: &usize| !self.design.groups[*g].hypothesis.is_everyday();
+        for _ in 0..ROUNDS {
+            let odd: Vec<usize> = best.model.iter().copied().filter(is_odd).collect();
+            let others = odd.into_par_iter().map(|g| self.select_without(of, &best.model, g));
+            let others = others.map(|other| (self.gain_over(&best, &other), other));
+            let others: Vec<(f64, Selected)> = others.collect();
+            let most = others.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+            let Some((gain, other)) = most else { break };
+            if gain <= self.thresholds.search.rival_evidence {
+                break;
+            }
+            best = other;
+        }
+        best
+    }
+
+    /// The model that a search reaches which begins with the everyday effects of the joints of `g` in place of `g`,
+    /// and in which `g` may not enter.
+    fn select_without(&self, of: &[usize], model: &HypothesisSet, g: usize) -> Selected<'a> {
+        let groups = &self.design.groups;
+        let shares = |h: &usize| groups[*h].joints.iter().any(|j| groups[g].joints.contains(j));
+        let mut start = Start::Everyday.model(self.design);
+        start.retain(shares);
+        start.extend(model.iter().copied().filter(|&h| h != g));
+        self.select_beside(of, start, Some(g))
+    }
+
+    /// What another answer has more of evidence after its names, in the mean of both weightings (nats).
+    fn gain_over(&self, one: &Selected, other: &Selected) -> f64 {
+        let over = |problem: &Problem| {
+            self.evidence_after_names(problem, &other.model)
+                - self.evidence_after_names(problem, &one.model)
+        };
+        0.5 * (over(&one.problem) + over(&other.problem))
+    }
+
+    /// The evidence of a model less what its names need to enter, and less what its bodies explain beyond physical ones.
+    fn evidence_after_names(&self, problem: &Problem, model: &HypothesisSet) -> f64 {
+        let selection = self.selection(problem);
+        let names: f64 = model.iter().map(|&g| selection.least_evidence(g)).sum();
+        let Some(fit) = problem.fit(model) else { return f64::NEG_INFINITY };
+        let (info, sizes) = (&problem.info, &self.thresholds.sizes);
+        let physical = physical_inertias(self.design, model, info, self.robot, sizes);
+        let lost = info.deviance(&physical) - info.deviance(&fit.expand(self.design.width));
+        fit.evidence - names - 0.5 * lost.max(0.0)
+    }
+
+    /// The model that a search reaches which begins with `start`.
+    pub fn select_from(&self, of: &[usize], start: HypothesisSet) -> Selected<'a> {
+        self.select_beside(of, start, None)
+    }
+
+    /// The same, where one hypothesis may not enter.
+    fn select_beside(
+        &self,
+        of: &[usize],
+        start: HypothesisSet,
+        barred: Option<usize>,
+    ) -> Selected<'a> {
+        let (mut problem, mut model) = (self.problem(of), start);
+        for _ in 0..ROUNDS {
+            let next = Selection { barred, ..self.selection(&problem) }.run(model.clone());
+            let is_same = next == model;
+            model = next;
+            problem = problem.with_weights(problem.noise(&model).weights(&self.design.moved));
+            if is_same {
+                break;
+            }
+        }
+        Selected { problem, model }
+    }
+}
