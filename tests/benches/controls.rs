@@ -31,7 +31,7 @@ fn arms() -> Vec<(&'static str, Robot)> {
 
 /// RMS of a joint's signals over runs.
 fn rms(runs: &[Run], of: impl Fn(&Run) -> &Vec<f64>) -> f64 {
-    let all = || runs.iter().flat_map(|run| of(run));
+    let all = || runs.iter().flat_map(&of);
     (all().map(|x| x * x).sum::<f64>() / all().count() as f64).sqrt()
 }
 
