@@ -29,7 +29,7 @@ impl<'a> Dataset<'a> {
         let described = self.select_from(of, Start::Described.model(self.design));
         let everyday = self.select_from(of, Start::Everyday.model(self.design));
         if described.model == everyday.model {
-            return self.with_sets_in_place_of_one(of, described);
+            return self.with_sets_in_place_of_one(described);
         }
         let united =
             self.select_from(of, described.model.union(&everyday.model).copied().collect());
@@ -38,21 +38,27 @@ impl<'a> Dataset<'a> {
         let (most, other) =
             if of_united > of_everyday { (of_united, united) } else { (of_everyday, everyday) };
         let best = if most > self.thresholds.search.rival_evidence { other } else { described };
-        self.with_sets_in_place_of_one(of, best)
+        self.with_sets_in_place_of_one(best)
     }
 
     /// The answer after causes that are not everyday gave way to sets of others, one after the other, while that has
-    /// more evidence by `rival_evidence`.
-    fn with_sets_in_place_of_one(&self, of: &[usize], mut best: Selected<'a>) -> Selected<'a> {
+    /// more evidence by `rival_evidence`: first with the weights of the answer, then with those that the set measures.
+    fn with_sets_in_place_of_one(&self, mut best: Selected<'a>) -> Selected<'a> {
         let is_odd = |g: &usize| !self.design.groups[*g].hypothesis.is_everyday();
+        let least = self.thresholds.search.rival_evidence;
         for _ in 0..ROUNDS {
             let odd: Vec<usize> = best.model.iter().copied().filter(is_odd).collect();
-            let others = odd.into_par_iter().map(|g| self.select_without(of, &best.model, g));
-            let others = others.map(|other| (self.gain_over(&best, &other), other));
-            let others: Vec<(f64, Selected)> = others.collect();
+            let now = self.evidence_after_names(&best.problem, &best.model);
+            let others = odd.into_par_iter().map(|g| {
+                let model = self.select_without(&best, g);
+                (self.evidence_after_names(&best.problem, &model) - now, g, model)
+            });
+            let others: Vec<(f64, usize, HypothesisSet)> = others.collect();
             let most = others.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
-            let Some((gain, other)) = most else { break };
-            if gain <= self.thresholds.search.rival_evidence {
+            let Some((_, g, model)) = most.filter(|(gain, ..)| *gain > least) else { break };
+            let weighted = self.weigh(&best.problem, &model);
+            let other = self.select_in(weighted, model, Some(g));
+            if self.gain_over(&best, &other) <= least {
                 break;
             }
             best = other;
@@ -60,15 +66,15 @@ impl<'a> Dataset<'a> {
         best
     }
 
-    /// The model that a search reaches which begins with the everyday effects of the joints of `g` in place of `g`,
+    /// The model that a selection reaches which begins with the everyday effects of the joints of `g` in place of `g`,
     /// and in which `g` may not enter.
-    fn select_without(&self, of: &[usize], model: &HypothesisSet, g: usize) -> Selected<'a> {
+    fn select_without(&self, Selected { problem, model }: &Selected, g: usize) -> HypothesisSet {
         let groups = &self.design.groups;
         let shares = |h: &usize| groups[*h].joints.iter().any(|j| groups[g].joints.contains(j));
         let mut start = Start::Everyday.model(self.design);
         start.retain(shares);
         start.extend(model.iter().copied().filter(|&h| h != g));
-        self.select_beside(of, start, Some(g))
+        Selection { barred: Some(g), ..self.selection(problem) }.run(start)
     }
 
     /// What another answer has more of evidence after its names, in the mean of both weightings (nats).
@@ -93,26 +99,30 @@ impl<'a> Dataset<'a> {
 
     /// The model that a search reaches which begins with `start`.
     pub fn select_from(&self, of: &[usize], start: HypothesisSet) -> Selected<'a> {
-        self.select_beside(of, start, None)
+        self.select_in(self.problem(of), start, None)
     }
 
-    /// The same, where one hypothesis may not enter.
-    fn select_beside(
+    /// The same, where one hypothesis may not enter, with the weights of a problem to begin with.
+    fn select_in(
         &self,
-        of: &[usize],
-        start: HypothesisSet,
+        mut problem: Problem<'a>,
+        mut model: HypothesisSet,
         barred: Option<usize>,
     ) -> Selected<'a> {
-        let (mut problem, mut model) = (self.problem(of), start);
         for _ in 0..ROUNDS {
             let next = Selection { barred, ..self.selection(&problem) }.run(model.clone());
             let is_same = next == model;
             model = next;
-            problem = problem.with_weights(problem.noise(&model).weights(&self.design.moved));
+            problem = self.weigh(&problem, &model);
             if is_same {
                 break;
             }
         }
         Selected { problem, model }
+    }
+
+    /// A problem weighted by the noise that a model leaves.
+    fn weigh(&self, problem: &Problem<'a>, model: &HypothesisSet) -> Problem<'a> {
+        problem.with_weights(problem.noise(model).weights(&self.design.moved))
     }
 }
