@@ -120,9 +120,9 @@ fn recorded_kinova_has_dry_friction_where_an_offset_explains_as_much() {
     let robot = robot_of(&folder, "kinova_gen3");
     let runs: Vec<&str> = KINOVA.into_iter().filter(|run| *run != "opti_traj_testing1").collect();
     let answer = diagnosis(&robot, &folder.join("kinova_gen3"), &runs, "effort");
-    let friction = finding(&answer, "Coulomb friction at joint_1");
-    assert!(friction.is_some(), "{:?}", named(&answer));
-    assert!(finding(&answer, "torque offset at joint_1").is_none());
+    let of = |kind| joints_with(&answer, &[kind]).contains(&"joint_1".to_owned());
+    assert!(of(EffectKind::CoulombFriction), "{:?}", named(&answer));
+    assert!(!of(EffectKind::TorqueOffset), "{:?}", named(&answer));
 }
 
 /// The runs that have a column `effort_sensor`.

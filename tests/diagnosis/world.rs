@@ -117,7 +117,7 @@ pub fn sign(qd: f64) -> f64 {
     }
 }
 
-/// The finding named `words`, such as `torque offset at j3_shoulder_yaw`.
+/// The finding named `words`, such as `DR03 torque offset at j3_shoulder_yaw`.
 pub fn finding<'a>(diagnosis: &'a Diagnosis, words: &str) -> Option<&'a Finding> {
     diagnosis.findings.iter().find(|f| f.at.words() == words)
 }
