@@ -18,7 +18,7 @@ const NUMERICAL: &[(&str, &str, &str, &str)] = &[
     ("diagnosis", "along", "REGRESSION_RATE", "sampling rate, just above twice the band"),
     ("diagnosis", "along", "THINNING", "cut-off of an anti-aliasing filter"),
     ("diagnosis", "constancy", "FUNCTIONS", "number of functions in an array"),
-    ("diagnosis", "dataset", "ROUNDS", "cap of a loop that ends when nothing changes"),
+    ("diagnosis", "select_model", "ROUNDS", "cap of a loop that ends when nothing changes"),
     ("diagnosis", "fitted_model", "CONVERGED", "tolerance of an iteration"),
     ("diagnosis", "fitted_model", "ROUNDS", "cap of a loop that ends when it converges"),
     ("diagnosis", "fitted_model", "SHORTEST", "shortest step of an iteration"),
