@@ -67,9 +67,9 @@ impl<'a> Selection<'a> {
     }
 
     /// A state after all its admissible simplifications: the inertia of the link behind a joint becomes its rotor
-    /// inertia, a gear ratio a torque constant, friction that grows with the load or differs with the direction Coulomb
-    /// friction, friction of shared motors that of each joint. Then one hypothesis with the same torque takes the place
-    /// of two: asymmetric friction that of Coulomb friction and a torque offset of at most half its level.
+    /// inertia, a gear ratio a torque constant, a torque offset and friction that grows with the load or differs with the
+    /// direction Coulomb friction, friction of shared motors that of each joint. Then one hypothesis with the same torque
+    /// takes the place of two: asymmetric friction that of Coulomb friction and a torque offset of at most half its level.
     pub fn simplify(&self, mut state: ModelState<'a>) -> ModelState<'a> {
         for g in state.model.clone() {
             let change = self.simplification(g);
