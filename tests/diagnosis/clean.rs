@@ -68,7 +68,7 @@ fn a_motion_as_fast_as_the_cutoff_is_weakened_alike_on_both_sides() {
 /// Described friction holds a joint that stands with any torque up to its level: a constant for every
 /// stand, through which a sine over position goes as well as one does through any few values.
 #[test]
-fn what_holds_a_standing_joint_is_no_ripple() {
+fn what_holds_a_standing_joint_is_no_tone() {
     const LEVELS_NM: [f64; 7] = [1.5, 1.5, 1.0, 1.0, 0.2, 0.2, 0.05];
     let mut robot = wam();
     for (j, level) in LEVELS_NM.into_iter().enumerate() {
@@ -81,11 +81,34 @@ fn what_holds_a_standing_joint_is_no_ripple() {
         LEVELS_NM[j] * if qd.abs() < 1e-9 { held } else { qd.signum() }
     };
     let truth = Truth { torque: &friction, ..Truth::of(&robot) };
-    let mut ripples = Vec::new();
+    let mut tones = Vec::new();
     for seed in 300..308 {
         let run = [run(&truth, &Noise::of_a_wam(), 8.0, seed)];
         let answer = diagnose(&robot, &run, &Settings::default(), &Silent).unwrap().diagnosis;
-        ripples.extend(named(&answer).into_iter().filter(|name| name.contains("ripple")));
+        let is_tone = |name: &String| name.contains("ripple") || name.contains("disturbance");
+        tones.extend(named(&answer).into_iter().filter(is_tone));
     }
-    assert_eq!(ripples, Vec::<String>::new());
+    assert_eq!(tones, Vec::<String>::new());
+}
+
+/// Described friction that turns more slowly than its model: while a joint changes its direction, dry friction may have
+/// any value up to its level, and neither a delay nor another friction is named for it.
+#[test]
+fn described_friction_that_turns_slowly_has_no_other_name() {
+    const LEVELS_NM: [f64; 7] = [3.0, 3.0, 2.0, 2.0, 0.4, 0.4, 0.1];
+    const SLOW_RAD_PER_S: f64 = 0.05;
+    let mut robot = wam();
+    for (j, level) in LEVELS_NM.into_iter().enumerate() {
+        let drive = &mut robot.link_mut(j).unwrap().actuator;
+        (drive.coulomb_forward, drive.coulomb_backward) = (level, level);
+    }
+    let friction = |j: usize, [_, qd, _]: [f64; 3]| LEVELS_NM[j] * (qd / SLOW_RAD_PER_S).tanh();
+    let truth = Truth { torque: &friction, ..Truth::of(&robot) };
+    let mut names = Vec::new();
+    for seed in 310..314 {
+        let runs = log(&truth, seed);
+        let answer = diagnose(&robot, &runs, &Settings::default(), &Silent).unwrap().diagnosis;
+        names.extend(named(&answer));
+    }
+    assert_eq!(names, Vec::<String>::new());
 }

@@ -63,9 +63,9 @@ impl World {
         numbered.map(|(p, seed)| run_paced(&truth, noise, [seconds, 250.0, *p], seed)).collect()
     }
 
-    /// Three runs of 20 s, as in [`checks::synthetic::log`].
+    /// Three runs of 12 s, as in [`checks::synthetic::log`].
     pub fn log(&self, seed: u64) -> Vec<Run> {
-        self.runs(3, 20.0, &Noise::of_a_wam(), seed)
+        self.runs(3, 12.0, &Noise::of_a_wam(), seed)
     }
 }
 

@@ -142,7 +142,7 @@ fn drift_is_told_of_the_joint_that_drifted() {
     let mut record = record("commanded", "");
     record.joints[3].q[700] += 0.5;
     let replay = replay_torque(&robot, &record, Windows::of(1.4)).unwrap();
-    assert_eq!((replay.windows, replay.window_s), (1, 1.4));
+    assert_eq!((replay.starts.len(), replay.window_s), (1, 1.4));
     for (joint, drift) in replay.drift_rms.unwrap().iter().enumerate() {
         let expected = if joint == 3 { 0.5 } else { 0.0 };
         assert!((drift - expected).abs() < 1e-2, "joint {joint}: {drift} rad");
@@ -198,5 +198,5 @@ fn a_drift_that_no_window_shows_is_not_zero() {
     let (robot, mut record) = (wam_with(TorqueSource::Commanded), record("commanded", ""));
     record.joints[6].effort.fill(1e6);
     let replay = replay_torque(&robot, &record, Windows::of(0.2)).unwrap();
-    assert_eq!((replay.runaways.len(), replay.windows, replay.drift_rms), (12, 12, None));
+    assert_eq!((replay.runaways.len(), replay.starts.len(), replay.drift_rms), (12, 12, None));
 }

@@ -173,7 +173,7 @@ pub fn whole_run(name: &str, time: Vec<f64>, joints: Vec<Channels>) -> Run {
     }
 }
 
-/// Three runs of 20 s with different motions.
+/// Three runs of 12 s with different motions.
 pub fn log(truth: &Truth, seed: u64) -> Vec<Run> {
-    (0..3).map(|k| run(truth, &Noise::of_a_wam(), 20.0, 10 * seed + k)).collect()
+    (0..3).map(|k| run(truth, &Noise::of_a_wam(), 12.0, 10 * seed + k)).collect()
 }

@@ -1,4 +1,3 @@
-use effects::Frame;
 use logs::{PrepareSettings, Run, centre_commands, prepare};
 use robot::Robot;
 
@@ -84,5 +83,5 @@ fn tones_left_by(inputs: &Inputs, runs: &[Run]) -> Result<Oscillations, Diagnosi
     let slowest_hz = if all_differ { prepared.motion_hz } else { prepared.cutoff_hz };
     let (practical, open_share) = (&inputs.practical(), settings.open_share);
     let question = ToneQuestion { slowest_hz, practical, open_share };
-    Ok(tones(&extended, &wide, &Frame::of_logs(&wide), &inputs.log, &question)?)
+    Ok(tones([&extended, inputs.nominal], &wide, &inputs.log, &question)?)
 }

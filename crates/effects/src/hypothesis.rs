@@ -1,4 +1,4 @@
-use catalogue::EffectKind;
+use catalogue::{EffectKind, Family};
 use robot::Robot;
 
 use crate::any_effect::AnyEffect;
@@ -76,6 +76,16 @@ impl Hypothesis {
                 | EffectKind::RotorInertia
                 | EffectKind::TorqueOffset
         )
+    }
+
+    /// Whether what dry friction does while a joint changes its direction may pass for it: friction of any law, and what
+    /// is late.
+    pub fn is_like_turning_friction(self) -> bool {
+        let is_late = matches!(
+            self.kind,
+            EffectKind::ActuatorDelay | EffectKind::ActuatorLag | EffectKind::TimeSkew
+        );
+        is_late || self.kind.entry().family == Family::Friction
     }
 
     /// The joint of an effect that lies between its encoder and its link, where a second encoder at the link shows

@@ -107,7 +107,7 @@ impl Replay {
             format!(
                 "A joint ran away in {} of {} windows of {} ms, which are left out; the first: {first}",
                 f.runaways.len(),
-                f.windows,
+                f.starts.len(),
                 milliseconds(f)
             )
         });
@@ -205,7 +205,7 @@ fn text(robot: &Robot, name: &str, record: &PreparedRun, replay: &Replay) -> Str
         text.push_str(&format!(
             " a joint ran away in {} of {} windows of {} ms, which are left out; the first:\n  {}\n",
             replay.runaways.len(),
-            replay.windows,
+            replay.starts.len(),
             milliseconds(replay),
             replay.runaways[0]
         ));

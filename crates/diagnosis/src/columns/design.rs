@@ -1,4 +1,5 @@
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use effects::{Frame, Hypothesis, Priors, Scale, ShapedRobot, hypotheses};
 use logs::LogError;
@@ -225,12 +226,17 @@ impl Design {
         self.local[j].iter().map(|&c| weights.get(c).copied().unwrap_or(0.0)).collect()
     }
 
-    /// Residual of run `r` at joint `j` after the columns with `weights` (N·m or N).
-    pub fn remaining(&self, r: usize, j: usize, weights: &[f64]) -> Vec<f64> {
+    /// Residual of samples of run `r` at joint `j` after the columns with `weights` (N·m or N).
+    pub fn remaining(
+        &self,
+        (r, samples): (usize, &Range<usize>),
+        j: usize,
+        weights: &[f64],
+    ) -> Vec<f64> {
         let joint = &self.runs[r].joints[j];
         let w = DVector::from_vec(self.local_weights(j, weights));
-        let explained = &joint.x * w;
-        joint.residual().zip(explained.iter()).map(|(y, e)| y - e).collect()
+        let explained = joint.x.rows(samples.start, samples.len()) * w;
+        joint.residual().skip(samples.start).zip(explained.iter()).map(|(y, e)| y - e).collect()
     }
 
     /// Index of the hypothesis `h` among the groups.

@@ -37,22 +37,26 @@ pub(crate) struct ToneQuestion<'a> {
     pub open_share: f64,
 }
 
-/// The oscillations in the residual efforts of `robot` in a wide band, at the joints that moved: lines of the
-/// spectrum over time and over position that stand out in every run and lower the error by enough.
+/// The oscillations in the residual efforts of a robot in a wide band, at the joints that moved: lines of the
+/// spectrum over time and over position that stand out in every run and lower the error by enough. The robot is `found`
+/// by a search; a tone must also be in the difference from the one as it is `described`.
 ///
 /// A line as slow as the motion counts under two conditions: it is most of the residual at all times, and at some
 /// times no joint moves much at its frequency.
 pub(crate) fn tones(
-    robot: &Robot,
+    [found, described]: [&Robot; 2],
     wide: &Prepared,
-    frame: &Frame,
     log: &Log,
     question: &ToneQuestion,
 ) -> Result<Oscillations, LogError> {
     let (cutoff_hz, t) = (wide.cutoff_hz, &log.thresholds.tones);
-    let along = |run| Along::new(robot, frame, run, cutoff_hz, log.limits, &log.thresholds.signals);
-    let rest = |run| Rest::new(along(run)?);
-    let runs: Vec<Rest> = wide.runs.iter().map(rest).collect::<Result<_, _>>()?;
+    let frame = &Frame::of_logs(wide);
+    let rests = |robot| -> Result<Vec<Rest>, LogError> {
+        let along =
+            |run| Along::new(robot, frame, run, cutoff_hz, log.limits, &log.thresholds.signals);
+        wide.runs.iter().map(|run| Rest::new(along(run)?)).collect()
+    };
+    let runs = rests(found)?;
     let bands =
         Bands { cutoff_hz, band_hz: log.prepared.cutoff_hz, slowest_hz: question.slowest_hz };
     let at = |j: usize| {
@@ -64,7 +68,16 @@ pub(crate) fn tones(
         }
     };
     let looked_for = |tone: &Tone| !log.without.contains(&tone.hypothesis().kind);
-    let lines: Vec<Vec<Tone>> = (0..log.moved.len()).into_par_iter().map(at).collect();
+    let mut lines: Vec<Vec<Tone>> = (0..log.moved.len()).into_par_iter().map(at).collect();
+    if lines.iter().any(|lines| !lines.is_empty()) {
+        let gaps = rests(described)?;
+        let is_in_gap = |tone: &Tone| {
+            let gap = || gaps.iter().flat_map(|run| &run.left[tone.joint]);
+            let power = gap().map(|x| x * x).sum::<f64>() / gap().count().max(1) as f64;
+            0.5 * tone.amplitude().powi(2) <= t.most_of_gap * power
+        };
+        lines.iter_mut().for_each(|lines| lines.retain(is_in_gap));
+    }
     let mut found = Oscillations::default();
     for lines in lines {
         found.add(lines, t);
@@ -112,16 +125,18 @@ struct Joint<'a> {
 /// The tones of joint `j`, the strongest first.
 fn at_joint(runs: &[Rest], j: usize, least: Least, bands: Bands, t: &ToneThresholds) -> Vec<Tone> {
     let Bands { cutoff_hz, band_hz, slowest_hz } = bands;
-    let mut left: Vec<Vec<f64>> = runs.iter().map(|r| r.left[j].clone()).collect();
     let highest = TAU * t.highest * cutoff_hz;
-    // While a joint stands, dry friction is a constant of any size, which would pass for a sine over position.
-    let by_speed = |run: &Rest| {
-        let at =
-            |(v, stands): (&f64, &bool)| if *stands { 0.0 } else { highest / v.abs().max(1e-9) };
-        run.qd[j].iter().zip(&run.stands[j]).map(at).collect()
+    // While a joint stands, dry friction holds it with any part of its level, which would pass for a sine.
+    let while_moving = |run: &Rest, signal: &dyn Fn(usize) -> f64| -> Vec<f64> {
+        let at = |(t, stands): (usize, &bool)| if *stands { 0.0 } else { signal(t) };
+        run.stands[j].iter().enumerate().map(at).collect()
     };
-    let by_speed: Vec<Vec<f64>> = runs.iter().map(by_speed).collect();
-    let anywhere: Vec<Vec<f64>> = runs.iter().map(|r| vec![highest; r.time.len()]).collect();
+    let of_all = |signal: &dyn Fn(&Rest, usize) -> f64| -> Vec<Vec<f64>> {
+        runs.iter().map(|run| while_moving(run, &|t| signal(run, t))).collect()
+    };
+    let mut left = of_all(&|run, t| run.left[j][t]);
+    let by_speed = of_all(&|run, t| highest / run.qd[j][t].abs().max(1e-9));
+    let anywhere = of_all(&|_, _| highest);
     let slowest_hz = slowest_hz.max(t.lowest_hz);
     let mut tones: Vec<Tone> = Vec::new();
     while tones.len() < t.most_tones {
@@ -183,7 +198,7 @@ fn is_no_motion(tone: &Tone, clock: &Joint, slowest_hz: f64) -> bool {
     let power = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
     let in_window = |x: &[f64], w: &Range<usize>| x.get(w.clone()).map_or(0.0, power);
     let is_most = |(r, w): (usize, Range<usize>)| {
-        in_window(&without[r], &w) < (1.0 - t.share_of_slow) * in_window(&with[r], &w)
+        in_window(&without[r], &w) <= (1.0 - t.share_of_slow) * in_window(&with[r], &w)
     };
     let is_still = |(r, w): &(usize, Range<usize>)| {
         let moves = |qd: &Vec<f64>| {
@@ -267,7 +282,10 @@ impl Joint<'_> {
     fn without(&self, tone: &Tone) -> Vec<Vec<f64>> {
         let of = |(r, left): (usize, &Vec<f64>)| {
             let wave = self.runs[r].along.wave(self.index, tone.beat, 0.0);
-            left.iter().zip(wave.values).map(|(x, sine)| x - (tone.z[r] * sine).re).collect()
+            let without = |((x, sine), highest): ((&f64, Complex<f64>), &f64)| {
+                if *highest > 0.0 { x - (tone.z[r] * sine).re } else { *x }
+            };
+            left.iter().zip(wave.values).zip(&self.highest[r]).map(without).collect()
         };
         self.left.iter().enumerate().map(of).collect()
     }

@@ -1,4 +1,4 @@
-use crate::columns::run_design::{JointDesign, RunDesign};
+use crate::columns::run_design::RunDesign;
 use crate::outcome::finding_builder::FindingWithFall;
 use crate::outcome::limit_finding::limit_finding;
 use crate::outcome::spectrum::Spectrum;
@@ -116,26 +116,6 @@ impl Inputs<'_> {
             effective_samples: rest.iter().map(Vec::len).sum::<usize>() as f64 / time,
             range: range(self.log.prepared, j),
         }
-    }
-
-    /// RMS of the described dry friction near changes of direction, where it may have any value up to its level (N·m
-    /// or N):
-    ///
-    /// ```text
-    /// level sqrt(share / 3)   with `share` of the informative samples near a change of direction
-    /// ```
-    fn near_rest(&self, j: usize) -> f64 {
-        let joints = || self.design.runs.iter().map(|run| &run.joints[j]);
-        let informative = joints().flat_map(|joint| &joint.is_informative).filter(|t| **t).count();
-        let slides = |joint: &JointDesign| {
-            joint.is_informative.iter().zip(&joint.slides).filter(|(t, s)| **t && **s).count()
-        };
-        let sliding: usize = joints().map(slides).sum();
-        let drive = &self.nominal.links()[j].actuator;
-        let level = 0.5 * (drive.coulomb_forward + drive.coulomb_backward);
-        let gain = drive.transmission_ratio * drive.torque_gain;
-        (gain * level).abs()
-            * ((informative - sliding) as f64 / (3 * informative.max(1)) as f64).sqrt()
     }
 
     /// Number of tones and limits of joint `j`.

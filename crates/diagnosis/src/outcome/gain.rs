@@ -22,7 +22,7 @@ impl HeldOutGain {
 
     /// Residuals in every fold of `whole`, by the model found without it, `[joint][run][sample]` (N·m or N).
     pub fn held_out_residuals(&self, whole: &Problem) -> Vec<Vec<Vec<f64>>> {
-        whole.held_out_residuals(|f, run, j| self.folds[f].remaining(whole.design, run, j))
+        whole.held_out_residuals(|f, block, j| self.folds[f].remaining(whole.design, block, j))
     }
 }
 
@@ -67,21 +67,13 @@ fn inverse(dataset: &Dataset, whole: &Problem, fitted: &[FittedModel]) -> Invers
 
 /// Sum of squares and number of the informative residuals of joint `j` in the test blocks of a fold.
 fn squares(whole: &Problem, fold: &Fold, fitted: &FittedModel, j: usize) -> (f64, usize) {
-    let in_run = |run: usize| {
-        let blocks = fold.test.iter().map(|&b| &whole.blocks[b]).filter(move |b| b.run == run);
-        let mut blocks = blocks.peekable();
-        blocks.peek()?;
-        let left = fitted.remaining(whole.design, run, j);
-        let is_informative = &whole.design.runs[run].joints[j].is_informative;
-        let sum = |(sum, n): (f64, usize), block: &Block| {
-            let of = left[block.samples.clone()].iter().zip(&is_informative[block.samples.clone()]);
-            let informative = of.filter(|(_, is)| **is);
-            informative.fold((sum, n), |(sum, n), (x, _)| (sum + x * x, n + 1))
-        };
-        Some(blocks.fold((0.0, 0), sum))
+    let sum = |(sum, n): (f64, usize), block: &Block| {
+        let left = fitted.remaining(whole.design, block, j);
+        let is_informative = &whole.design.runs[block.run].joints[j].is_informative;
+        let of = left.iter().zip(&is_informative[block.samples.clone()]);
+        of.filter(|(_, is)| **is).fold((sum, n), |(sum, n), (x, _)| (sum + x * x, n + 1))
     };
-    let runs = 0..whole.design.runs.len();
-    runs.filter_map(in_run).fold((0.0, 0), |(s, n), (sum, count)| (s + sum, n + count))
+    fold.test.iter().map(|&b| &whole.blocks[b]).fold((0.0, 0), sum)
 }
 
 fn name(whole: &Problem, f: usize) -> String {

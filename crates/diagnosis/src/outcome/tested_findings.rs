@@ -51,8 +51,10 @@ impl Inputs<'_> {
         let by_run = causes.problem.with_folding(Folding::ByRun);
         let (causes, gain) = self.keep_what_predicts(dataset, &by_run, causes, progress)?;
         let left = gain.held_out_residuals(&by_run);
-        let gap = by_run
-            .held_out_residuals(|_, run, j| self.design.runs[run].joints[j].residual().collect());
+        let gap = by_run.held_out_residuals(|_, block, j| {
+            let all = self.design.runs[block.run].joints[j].residual();
+            all.skip(block.samples.start).take(block.samples.len()).collect()
+        });
         let Findings { found, ruled_out, unseen_friction } = self.findings(dataset, &causes)?;
         let supplement = match self.settings.only_findings {
             true => None,

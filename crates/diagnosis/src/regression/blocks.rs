@@ -13,6 +13,13 @@ pub(crate) struct Block {
     pub samples: Range<usize>,
 }
 
+impl Block {
+    /// Residual of joint `j` in the block after the columns with `weights` (N·m or N).
+    pub fn remaining(&self, design: &Design, j: usize, weights: &[f64]) -> Vec<f64> {
+        design.remaining((self.run, &self.samples), j, weights)
+    }
+}
+
 /// A part of the logs that is held out as a whole.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Fold {

@@ -5,6 +5,7 @@ use logs::LogError;
 use robot::Robot;
 
 use crate::columns::design::Design;
+use crate::regression::blocks::Block;
 use crate::regression::body_errors::{choose_body_errors, prior_of_bodies};
 use crate::regression::extend_robot::extend_robot;
 use crate::regression::gram::Grams;
@@ -94,11 +95,11 @@ pub(crate) struct FittedModel {
 }
 
 impl FittedModel {
-    /// Residual of joint `j` in a run (N·m or N); `first` is the design about the robot without findings.
-    pub fn remaining(&self, first: &Design, run: usize, j: usize) -> Vec<f64> {
+    /// Residual of joint `j` in a block (N·m or N); `first` is the design about the robot without findings.
+    pub fn remaining(&self, first: &Design, block: &Block, j: usize) -> Vec<f64> {
         match &self.refit {
-            Some(Refit { design, weights, .. }) => design.remaining(run, j, weights),
-            None => first.remaining(run, j, &self.weights),
+            Some(Refit { design, weights, .. }) => block.remaining(design, j, weights),
+            None => block.remaining(first, j, &self.weights),
         }
     }
 

@@ -112,12 +112,22 @@ impl Grams {
         sum
     }
 
+    /// The statistics of every joint over the blocks `of`.
+    pub fn sums(&self, of: &[usize]) -> Vec<JointGram> {
+        (0..self.joints()).map(|j| self.joint(j, of)).collect()
+    }
+
     /// The normal equations over the blocks `of`, joint `j` with weight `weight[j]`.
     pub fn information(&self, of: &[usize], weight: &[f64]) -> Information {
+        self.weigh(&self.sums(of), weight)
+    }
+
+    /// The normal equations from the statistics of every joint, joint `j` with weight `weight[j]`.
+    pub fn weigh(&self, sums: &[JointGram], weight: &[f64]) -> Information {
         let (mut h, mut g) = (DMatrix::zeros(self.width, self.width), DVector::zeros(self.width));
         let mut yy = 0.0;
         for (j, &c) in weight.iter().enumerate().filter(|(_, c)| **c > 0.0) {
-            let sum = self.joint(j, of);
+            let sum = &sums[j];
             yy += c * sum.yy;
             for (a, &row) in self.local[j].iter().enumerate() {
                 g[row] += c * sum.xy[a];

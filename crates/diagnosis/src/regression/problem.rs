@@ -1,4 +1,5 @@
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use nalgebra::DVector;
 
@@ -23,6 +24,7 @@ pub(crate) struct Problem<'a> {
     pub of: Vec<usize>,
     /// The folds that are held out in turn.
     pub folds: Vec<Fold>,
+    sums: Arc<Sums>,
     /// Weight of each joint's squared residuals.
     pub weight: Vec<f64>,
     pub thresholds: &'a Thresholds,
@@ -30,8 +32,27 @@ pub(crate) struct Problem<'a> {
     pub info: Information,
     /// Normal equations of each fold's training blocks.
     pub training: Vec<Information>,
-    /// Statistics of the blocks that each fold holds out, `[fold][joint]`.
+}
+
+/// Statistics of every joint summed over blocks: all weightings of a problem share them.
+#[derive(Debug)]
+struct Sums {
+    /// Over all blocks of the problem, `[joint]`.
+    all: Vec<JointGram>,
+    /// Over the blocks that each fold is fitted to, `[fold][joint]`.
+    training: Vec<Vec<JointGram>>,
+    /// Over the blocks that each fold holds out, `[fold][joint]`.
     tests: Vec<Vec<JointGram>>,
+}
+
+impl Sums {
+    fn new(grams: &Grams, of: &[usize], folds: &[Fold]) -> Self {
+        Self {
+            all: grams.sums(of),
+            training: folds.iter().map(|fold| grams.sums(&fold.train)).collect(),
+            tests: folds.iter().map(|fold| grams.sums(&fold.test)).collect(),
+        }
+    }
 }
 
 /// Squared held-out residuals of a model.
@@ -54,26 +75,31 @@ impl<'a> Problem<'a> {
         thresholds: &'a Thresholds,
     ) -> Self {
         let folds = folds(design, blocks, of, Folding::ByMotion, &thresholds.blocks);
-        let info = grams.information(of, &weight);
-        let training = folds.iter().map(|f| grams.information(&f.train, &weight)).collect();
-        let tests = tests(grams, &folds);
+        let sums = Arc::new(Sums::new(grams, of, &folds));
+        let info = grams.weigh(&sums.all, &weight);
+        let training = sums.training.iter().map(|sums| grams.weigh(sums, &weight)).collect();
         let of = of.to_vec();
-        Self { design, blocks, grams, of, folds, weight, thresholds, info, training, tests }
+        Self { design, blocks, grams, of, folds, sums, weight, thresholds, info, training }
     }
 
     /// The same problem with other weights.
     pub fn with_weights(&self, weight: Vec<f64>) -> Self {
-        Self::new(self.design, self.blocks, self.grams, &self.of, weight, self.thresholds)
+        let weigh = |sums: &Vec<JointGram>| self.grams.weigh(sums, &weight);
+        let info = weigh(&self.sums.all);
+        let training = self.sums.training.iter().map(weigh).collect();
+        let (of, folds, sums) = (self.of.clone(), self.folds.clone(), Arc::clone(&self.sums));
+        let Self { design, blocks, grams, thresholds, .. } = *self;
+        Self { design, blocks, grams, of, folds, sums, weight, thresholds, info, training }
     }
 
     /// The same problem with other folds.
     pub fn with_folding(&self, folding: Folding) -> Self {
         let t = &self.thresholds.blocks;
         let folds = folds(self.design, self.blocks, &self.of, folding, t);
-        let information = |f: &Fold| self.grams.information(&f.train, &self.weight);
-        let training = folds.iter().map(information).collect();
-        let tests = tests(self.grams, &folds);
-        Self { folds, training, tests, ..self.clone() }
+        let sums = Arc::new(Sums::new(self.grams, &self.of, &folds));
+        let weigh = |sums: &Vec<JointGram>| self.grams.weigh(sums, &self.weight);
+        let training = sums.training.iter().map(weigh).collect();
+        Self { folds, sums, training, ..self.clone() }
     }
 
     /// The blocks in independent groups. Where runs repeat a motion, their residuals repeat too, so that the same
@@ -122,7 +148,7 @@ impl<'a> Problem<'a> {
     pub fn hold_out(&self, model: &HypothesisSet) -> HeldOutResiduals {
         let joints = self.design.joints();
         let (mut squares, mut counts) = (vec![0.0; joints], vec![0_usize; joints]);
-        for (f, test) in self.tests.iter().enumerate() {
+        for (f, test) in self.sums.tests.iter().enumerate() {
             let w = self.fold_weights(model, f);
             for (j, gram) in test.iter().enumerate() {
                 squares[j] += gram.remaining(&self.grams.local(j, &w));
@@ -159,11 +185,11 @@ impl<'a> Problem<'a> {
         of_run.flat_map(part).collect()
     }
 
-    /// Held-out residuals, `[joint][run][sample]`. `left` gives the residual of a fold, by its index, in a run at a
+    /// Held-out residuals, `[joint][run][sample]`. `left` gives the residual of a fold, by its index, in a block at a
     /// joint. Runs outside this part of the logs are left out.
     pub fn held_out_residuals(
         &self,
-        left: impl Fn(usize, usize, usize) -> Vec<f64>,
+        left: impl Fn(usize, &Block, usize) -> Vec<f64>,
     ) -> Vec<Vec<Vec<f64>>> {
         self.residuals(left, |_, left| left.to_vec())
     }
@@ -171,7 +197,7 @@ impl<'a> Problem<'a> {
     /// Held-out residuals of the informative samples.
     pub fn informative_residuals(
         &self,
-        left: impl Fn(usize, usize, usize) -> Vec<f64>,
+        left: impl Fn(usize, &Block, usize) -> Vec<f64>,
     ) -> Vec<Vec<Vec<f64>>> {
         self.residuals(left, |is_informative, left| {
             left.iter().zip(is_informative).filter(|(_, is)| **is).map(|(left, _)| *left).collect()
@@ -181,7 +207,7 @@ impl<'a> Problem<'a> {
     /// Held-out residuals; `taken` chooses from a block's informative samples and residual.
     fn residuals(
         &self,
-        left: impl Fn(usize, usize, usize) -> Vec<f64>,
+        left: impl Fn(usize, &Block, usize) -> Vec<f64>,
         taken: impl Fn(&[bool], &[f64]) -> Vec<f64>,
     ) -> Vec<Vec<Vec<f64>>> {
         let fold_of = |b: usize| self.folds.iter().position(|f| f.test.contains(&b));
@@ -194,14 +220,9 @@ impl<'a> Problem<'a> {
                 continue;
             }
             for (j, residual) in residuals.iter_mut().enumerate() {
-                let of_fold = |f: usize| {
-                    let used = own.iter().any(|(_, fold)| *fold == f);
-                    if used { left(f, run, j) } else { Vec::new() }
-                };
-                let left: Vec<Vec<f64>> = (0..self.folds.len()).map(of_fold).collect();
                 let is_informative = &self.design.runs[run].joints[j].is_informative;
                 let part = |(block, f): &(&Block, usize)| {
-                    taken(&is_informative[block.samples.clone()], &left[*f][block.samples.clone()])
+                    taken(&is_informative[block.samples.clone()], &left(*f, block, j))
                 };
                 residual.push(own.iter().flat_map(part).collect());
             }
@@ -213,14 +234,16 @@ impl<'a> Problem<'a> {
     pub fn noise(&self, model: &HypothesisSet) -> Noise {
         let weights: Vec<Vec<f64>> =
             (0..self.folds.len()).map(|fold| self.fold_weights(model, fold)).collect();
-        let residual = |fold: usize, run, j| self.design.remaining(run, j, &weights[fold]);
+        let residual =
+            |fold: usize, block: &Block, j| block.remaining(self.design, j, &weights[fold]);
         Noise::of(&self.informative_residuals(residual))
     }
 
     /// The noise that a model leaves on the blocks it is fitted to.
     pub fn training_noise(&self, model: &HypothesisSet) -> Noise {
         let weights = self.fit(model).map(|f| f.expand(self.design.width)).unwrap_or_default();
-        Noise::of(&self.informative_residuals(|_, run, j| self.design.remaining(run, j, &weights)))
+        let residual = |_, block: &Block, j| block.remaining(self.design, j, &weights);
+        Noise::of(&self.informative_residuals(residual))
     }
 
     /// The model with every hypothesis at once. In a design of the efforts it leaves out effects that an error
@@ -232,10 +255,4 @@ impl<'a> Problem<'a> {
         };
         (0..groups.len()).filter(is_distinct).collect()
     }
-}
-
-/// Statistics of the blocks that each fold holds out, `[fold][joint]`.
-fn tests(grams: &Grams, folds: &[Fold]) -> Vec<Vec<JointGram>> {
-    let of = |fold: &Fold| (0..grams.joints()).map(|j| grams.joint(j, &fold.test)).collect();
-    folds.iter().map(of).collect()
 }

@@ -17,6 +17,8 @@ pub(crate) struct Dataset<'a> {
     pub grams: &'a Grams,
     /// Least fall of the held-out RMS error of each joint that counts (N·m or N).
     pub practical: &'a [f64],
+    /// RMS of the described dry friction of each joint near changes of direction (N·m or N).
+    pub near_rest: &'a [f64],
     pub thresholds: &'a Thresholds,
 }
 
@@ -52,6 +54,12 @@ impl<'a> Dataset<'a> {
 
     /// A selection on `problem`.
     pub fn selection<'b>(&'b self, problem: &'b Problem<'b>) -> Selection<'b> {
-        Selection { problem, robot: self.robot, practical: self.practical.to_vec(), barred: None }
+        Selection {
+            problem,
+            robot: self.robot,
+            practical: self.practical,
+            near_rest: self.near_rest,
+            barred: None,
+        }
     }
 }

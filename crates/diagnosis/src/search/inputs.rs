@@ -4,6 +4,7 @@ use effects::without_unused_shapes;
 use robot::Robot;
 
 use crate::columns::design::Design;
+use crate::columns::run_design::JointDesign;
 use crate::error::DiagnosisError;
 use crate::regression::blocks::{Block, blocks};
 use crate::regression::fitted_model::FittedModel;
@@ -38,18 +39,17 @@ impl Inputs<'_> {
     pub fn with_dataset<T>(&self, work: impl FnOnce(&Dataset) -> T) -> Result<T, DiagnosisError> {
         let blocks = self.blocks()?;
         let grams = Grams::new(self.design, &blocks);
-        let practical = self.practical();
-        Ok(work(&self.dataset(&blocks, &grams, &practical)))
+        Ok(work(&self.dataset(&blocks, &grams, &self.least_falls())))
     }
 
     fn dataset<'a>(
         &'a self,
         blocks: &'a [Block],
         grams: &'a Grams,
-        practical: &'a [f64],
+        [practical, near_rest]: &'a [Vec<f64>; 2],
     ) -> Dataset<'a> {
         let (robot, design, thresholds) = (self.robot, self.design, self.thresholds());
-        Dataset { robot, design, blocks, grams, practical, thresholds }
+        Dataset { robot, design, blocks, grams, practical, near_rest, thresholds }
     }
 
     /// Blocks of at least five autocorrelation times of the residual with all hypotheses in the model.
@@ -60,9 +60,14 @@ impl Inputs<'_> {
             return Err(DiagnosisError::TooShort { got: rough.len(), expected: thresholds.fewest });
         }
         let grams = Grams::new(self.design, &rough);
-        let practical = self.practical();
-        let memory = self.dataset(&rough, &grams, &practical).memory();
+        let memory = self.dataset(&rough, &grams, &self.least_falls()).memory();
         Ok(blocks(self.design, memory, thresholds))
+    }
+
+    /// Least falls of each joint's held-out RMS error that count: of any effect, and of one like friction that turns.
+    fn least_falls(&self) -> [Vec<f64>; 2] {
+        let near_rest = (0..self.design.joints()).map(|j| self.near_rest(j)).collect();
+        [self.practical(), near_rest]
     }
 
     /// Least fall of each joint's held-out RMS error that counts (N·m or N).
@@ -75,6 +80,26 @@ impl Inputs<'_> {
             (sum / f64::from(n.max(1))).sqrt()
         };
         (0..self.design.joints()).map(|j| self.settings.practical_share * rms(j)).collect()
+    }
+
+    /// RMS of the described dry friction near changes of direction, where it may have any value up to its level (N·m
+    /// or N):
+    ///
+    /// ```text
+    /// level sqrt(share / 3)   with `share` of the informative samples near a change of direction
+    /// ```
+    pub fn near_rest(&self, j: usize) -> f64 {
+        let joints = || self.design.runs.iter().map(|run| &run.joints[j]);
+        let informative = joints().flat_map(|joint| &joint.is_informative).filter(|t| **t).count();
+        let slides = |joint: &JointDesign| {
+            joint.is_informative.iter().zip(&joint.slides).filter(|(t, s)| **t && **s).count()
+        };
+        let sliding: usize = joints().map(slides).sum();
+        let drive = &self.nominal.links()[j].actuator;
+        let level = 0.5 * (drive.coulomb_forward + drive.coulomb_backward);
+        let gain = drive.transmission_ratio * drive.torque_gain;
+        (gain * level).abs()
+            * ((informative - sliding) as f64 / (3 * informative.max(1)) as f64).sqrt()
     }
 
     /// A robot without the trial shapes of effects that it lacks, and with the tones and limits of the logs.

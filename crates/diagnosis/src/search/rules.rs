@@ -159,7 +159,8 @@ impl Selection<'_> {
     }
 
     /// With `g` the error of held-out blocks falls by enough at one of its joints: by the practical share, or by half
-    /// of the residual (RMS).
+    /// of the residual (RMS). What is like friction that turns must also explain more than described friction may have
+    /// near changes of direction.
     pub fn pays(
         &self,
         before: &HeldOutResiduals,
@@ -168,8 +169,16 @@ impl Selection<'_> {
     ) -> Result<(), Refusal> {
         let share = self.thresholds().remaining_share;
         let fall = |j: usize| before.mean_square[j] - after.mean_square[j];
-        let least = |j: usize| self.practical[j].powi(2).min(share.powi(2) * before.mean_square[j]);
-        let joints = &self.problem.design.groups[g].joints;
+        let group = &self.problem.design.groups[g];
+        let near_rest = |j: usize| {
+            let is_like_it = group.hypothesis.is_like_turning_friction();
+            if is_like_it { self.near_rest[j] } else { 0.0 }
+        };
+        let least = |j: usize| {
+            let least = self.practical[j].powi(2).min(share.powi(2) * before.mean_square[j]);
+            least.max(near_rest(j).powi(2))
+        };
+        let joints = &group.joints;
         if joints.iter().any(|&j| fall(j) > least(j)) {
             return lowers_deviance(before, after);
         }

@@ -20,7 +20,9 @@ pub(crate) struct Selection<'a> {
     pub problem: &'a Problem<'a>,
     pub robot: &'a Robot,
     /// Least fall of the held-out RMS error of each joint that counts (N·m or N).
-    pub practical: Vec<f64>,
+    pub practical: &'a [f64],
+    /// See [`crate::search::dataset::Dataset::near_rest`].
+    pub near_rest: &'a [f64],
     /// A hypothesis that may not enter.
     pub barred: Option<usize>,
 }

@@ -26,19 +26,23 @@ impl<'a> Dataset<'a> {
     /// enter, and physical bodies what they explain less than free ones: the mean of both weightings, by the noise of
     /// either answer.
     pub fn select_model(&self, of: &[usize]) -> Selected<'a> {
-        let described = self.select_from(of, Start::Described.model(self.design));
-        let everyday = self.select_from(of, Start::Everyday.model(self.design));
-        if described.model == everyday.model {
-            return self.with_sets_in_place_of_one(described);
+        let problem = self.problem(of);
+        let select = |start: HypothesisSet| self.select_in(problem.clone(), start, None);
+        let start = |start: Start| select(start.model(self.design));
+        let (described, everyday) =
+            rayon::join(|| start(Start::Described), || start(Start::Everyday));
+        let mut others = Vec::new();
+        if described.model != everyday.model {
+            let union: HypothesisSet = described.model.union(&everyday.model).copied().collect();
+            let is_new = union != described.model && union != everyday.model;
+            others.push(everyday);
+            others.extend(is_new.then(|| select(union)));
         }
-        let united =
-            self.select_from(of, described.model.union(&everyday.model).copied().collect());
-        let of_everyday = self.gain_over(&described, &everyday);
-        let of_united = self.gain_over(&described, &united);
-        let (most, other) =
-            if of_united > of_everyday { (of_united, united) } else { (of_everyday, everyday) };
-        let best = if most > self.thresholds.search.rival_evidence { other } else { described };
-        self.with_sets_in_place_of_one(best)
+        let least = self.thresholds.search.rival_evidence;
+        let gains = others.into_iter().map(|other| (self.gain_over(&described, &other), other));
+        let better = gains.filter(|(gain, _)| *gain > least);
+        let best = better.reduce(|a, b| if b.0 > a.0 { b } else { a });
+        self.with_sets_in_place_of_one(best.map_or(described, |(_, best)| best))
     }
 
     /// The answer after causes that are not everyday gave way to sets of others, one after the other, while that has

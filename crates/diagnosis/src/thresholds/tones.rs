@@ -45,6 +45,9 @@ pub struct ToneThresholds {
     pub share_of_motion: f64,
     /// Cut-off of what a slow tone is compared with, in bandwidths of the motion (1).
     pub slow_band: f64,
+    /// Most power of a tone over that of the difference between measured and nominal effort in the same band (1). What is
+    /// larger is made up by a wrong cause that the tone cancels.
+    pub most_of_gap: f64,
     /// Length of a window in which a slow tone is compared (s): some periods of the slowest line that is looked for.
     pub window_s: f64,
     /// Fewest windows in which no joint moves at the frequency of a slow tone.
@@ -72,6 +75,7 @@ impl Default for ToneThresholds {
             share_of_slow: 0.5,
             share_of_motion: 0.5,
             slow_band: 2.0,
+            most_of_gap: 2.0,
             window_s: 5.0,
             fewest_still: 2,
         }

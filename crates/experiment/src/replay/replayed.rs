@@ -48,7 +48,7 @@ impl Replayed {
         let roll = |robot: &Robot, window_s: f64, model: &str| -> Vec<_> {
             let stage = format!("simulating {window_s} s of the {model} model");
             progress.stage(&stage, parts.len());
-            let windows = Windows { window_s, longest_step_s: STEP_S };
+            let windows = Windows { window_s, longest_step_s: STEP_S, one_in: 1 };
             let one = |part| {
                 let replay = replay_torque(robot, part, windows);
                 progress.step();
@@ -88,7 +88,7 @@ impl Simulated {
                 q[sample * joints + j] = joint.position[row];
             }
         }
-        let (found, windows) = (replay.runaways.len(), replay.windows);
+        let (found, windows) = (replay.runaways.len(), replay.starts.len());
         let first = replay.runaways.first();
         let trouble =
             first.map(|fault| format!("{found} of {windows} windows ended early: {fault}"));

@@ -10,19 +10,21 @@ use crate::replay::record::{
     start_at_sample, too_short, with_efforts_in_time, with_friction_of_sample,
 };
 
-/// Consecutive windows in which a record is simulated.
+/// Windows without overlap in which a record is simulated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Windows {
     /// Length of a window (s), rounded to whole samples.
     pub window_s: f64,
     /// Longest step of the engine (s). Each sample of the record takes a whole number of steps.
     pub longest_step_s: f64,
+    /// One of so many windows is simulated, the first of every group; 1 for all of them.
+    pub one_in: usize,
 }
 
 impl Windows {
     /// Windows of this length (s), with steps of at most 0.1 ms.
     pub fn of(window_s: f64) -> Self {
-        Self { window_s, longest_step_s: STEP_S }
+        Self { window_s, longest_step_s: STEP_S, one_in: 1 }
     }
 }
 
@@ -31,8 +33,8 @@ impl Windows {
 pub struct ForwardReplay {
     /// Length of a window (s).
     pub window_s: f64,
-    /// Number of windows, without overlap.
-    pub windows: usize,
+    /// Sample of the record at which each window starts.
+    pub starts: Vec<usize>,
     /// Faults of windows in which a joint ran away; these windows do not count in the drift.
     pub runaways: Vec<MachineFault>,
     /// Root mean square over the windows of `q_simulated - q_measured` at their ends, for each
@@ -65,7 +67,7 @@ pub fn replay_torque(
     record: &PreparedRun,
     windows: Windows,
 ) -> Result<ForwardReplay, SimulatorError> {
-    let Windows { window_s, longest_step_s } = windows;
+    let Windows { window_s, longest_step_s, one_in } = windows;
     check_rate(record)?;
     let record = &*with_efforts_in_time(robot, record);
     let samples = (window_s * record.rate_hz).round().max(1.0) as usize;
@@ -73,7 +75,7 @@ pub fn replay_torque(
     if count == 0 {
         return Err(too_short(record, window_s));
     }
-    let starts: Vec<usize> = (0..count).map(|w| w * samples).collect();
+    let starts: Vec<usize> = (0..count).step_by(one_in.max(1)).map(|w| w * samples).collect();
     let windows: Result<Vec<Window>, SimulatorError> = starts
         .par_iter()
         .map(|&start| roll_window(robot, record, start, samples, longest_step_s))
@@ -91,10 +93,10 @@ pub fn replay_torque(
     }
     Ok(ForwardReplay {
         window_s: samples as f64 / record.rate_hz,
-        windows: count,
         drift_rms: (kept > 0).then(|| squares.iter().map(|s| (s / kept as f64).sqrt()).collect()),
         motion: motion_of(robot, record, &starts, &windows),
         runaways: windows.into_iter().filter_map(|w| w.fault).collect(),
+        starts,
     })
 }
 
