@@ -86,7 +86,7 @@ pub(crate) fn title(diagnosis: &Diagnosis) -> String {
 /// What the extended model buys on held-out data, in one sentence with numbers.
 ///
 /// Over the joints that the logs show something of: root of the sum of squared errors where every joint turns, mean nMSE
-/// where units differ.
+/// where units differ. Where several joints count, also at how many of them the error falls, and by how much.
 pub fn bottom_line(report: &Report) -> String {
     let total = Total::new(report);
     let Total { what, unit, over, .. } = total;
@@ -101,8 +101,9 @@ pub fn bottom_line(report: &Report) -> String {
     }
     let way = if fall > 0.0 { "falls" } else { "rises" };
     format!(
-        "On held-out data ({held_out}) the {what} over {over} {way} from {before} to {after}{unit} ({})",
-        less_or_more(fall)
+        "On held-out data ({held_out}) the {what} over {over} {way} from {before} to {after}{unit} ({}{})",
+        less_or_more(fall),
+        total.words_by_joint()
     )
 }
 
@@ -123,6 +124,8 @@ struct Total {
     unit: &'static str,
     before: f64,
     after: f64,
+    /// Relative fall of the error of each of those joints.
+    falls: Vec<f64>,
 }
 
 impl Total {
@@ -135,13 +138,32 @@ impl Total {
         let all = joints.iter().all(|j| j.verdict != Verdict::DataInadequate);
         let over = if all { "all joints" } else { "the joints that the logs show" };
         let gain = &gain.inverse;
+        let [before, after] = [&gain.rms_before_nm, &gain.rms_after_nm].map(|rms| shown(rms));
+        let fall = |(before, after): (&f64, &f64)| {
+            if *before > 0.0 { 1.0 - after / before } else { 0.0 }
+        };
+        let falls = before.iter().zip(&after).map(fall).collect();
         if report.robot.links().iter().all(|l| l.joint.kind.is_rotation()) {
-            let before = root_of_squares(&shown(&gain.rms_before_nm));
-            let after = root_of_squares(&shown(&gain.rms_after_nm));
-            Self { over, what: "torque error", unit: " N·m RMS", before, after }
+            let (before, after) = (root_of_squares(&before), root_of_squares(&after));
+            Self { over, what: "torque error", unit: " N·m RMS", before, after, falls }
         } else {
             let (before, after) = (mean(&shown(&gain.nmse_before)), mean(&shown(&gain.nmse_after)));
-            Self { over, what: "mean nMSE of torque and force", unit: "", before, after }
+            Self { over, what: "mean nMSE of torque and force", unit: "", before, after, falls }
+        }
+    }
+
+    /// At how many of several joints the error falls by a tenth or more, and by half or more.
+    fn words_by_joint(&self) -> String {
+        let joints = self.falls.len();
+        let by = |least: f64| self.falls.iter().filter(|fall| **fall >= least).count();
+        match (by(0.1), by(0.5)) {
+            _ if joints < 2 => String::new(),
+            (0, _) => "; by less than 10 % at every joint".to_owned(),
+            (_, half) if half == joints => "; by 50 % or more at every joint".to_owned(),
+            (some, 0) => format!("; by 10 % or more at {some} of {joints} joints"),
+            (some, half) => {
+                format!("; by 10 % or more at {some} of {joints} joints, by 50 % or more at {half}")
+            }
         }
     }
 
@@ -231,13 +253,29 @@ mod tests {
     }
 
     #[test]
+    fn the_bottom_line_says_at_how_many_joints_the_error_falls() {
+        let mut sample = sample::arm();
+        sample.diagnosis.gain.inverse.rms_before_nm = vec![3.0, 4.0];
+        let cases = [
+            ([2.9, 3.9], "; by less than 10 % at every joint)"),
+            ([2.4, 4.1], "; by 10 % or more at 1 of 2 joints)"),
+            ([1.4, 3.2], "; by 10 % or more at 2 of 2 joints, by 50 % or more at 1)"),
+        ];
+        for (after, words) in cases {
+            sample.diagnosis.gain.inverse.rms_after_nm = after.to_vec();
+            let line = bottom_line(&sample.report());
+            assert!(line.ends_with(words), "{line}");
+        }
+    }
+
+    #[test]
     fn the_bottom_line_adds_squares_over_the_joints() {
         let mut sample = sample::arm();
         let gain = &mut sample.diagnosis.gain.inverse;
         (gain.rms_before_nm, gain.rms_after_nm) = (vec![3.0, 4.0], vec![0.6, 0.8]);
         assert_eq!(
             bottom_line(&sample.report()),
-            "On held-out data (each run in turn) the torque error over all joints falls from 5.00 to 1.00 N·m RMS (80 % less)"
+            "On held-out data (each run in turn) the torque error over all joints falls from 5.00 to 1.00 N·m RMS (80 % less; by 50 % or more at every joint)"
         );
     }
 }
