@@ -60,12 +60,13 @@ impl ToneSearch<'_> {
     }
 }
 
-/// The oscillations in the residual efforts of a search, in a band much wider than that of the motion.
+/// The oscillations in the residual efforts of a search, in a band much wider than that of the motion. Where there are
+/// none, those in the efforts that the robot as described leaves: a wrong cause that took the place of a tone hides it.
 fn tones_left_by(inputs: &Inputs, runs: &[Run]) -> Result<Oscillations, DiagnosisError> {
     let (prepared, settings) = (inputs.log.prepared, inputs.settings);
     let t = &settings.thresholds.tones;
     let slowest = prepared.runs.iter().map(|r| r.rate_hz).fold(f64::INFINITY, f64::min);
-    let wide_hz = t.band * slowest;
+    let wide_hz = t.cutoff_hz(slowest);
     if wide_hz < t.least_band * prepared.cutoff_hz {
         return Ok(Oscillations::default());
     }
@@ -83,5 +84,9 @@ fn tones_left_by(inputs: &Inputs, runs: &[Run]) -> Result<Oscillations, Diagnosi
     let slowest_hz = if all_differ { prepared.motion_hz } else { prepared.cutoff_hz };
     let (practical, open_share) = (&inputs.practical(), settings.open_share);
     let question = ToneQuestion { slowest_hz, practical, open_share };
-    Ok(tones([&extended, inputs.nominal], &wide, &inputs.log, &question)?)
+    let found = tones([&extended, inputs.nominal], &wide, &inputs.log, &question)?;
+    if !found.tones.is_empty() || extended == *inputs.nominal {
+        return Ok(found);
+    }
+    Ok(tones([inputs.nominal; 2], &wide, &inputs.log, &question)?)
 }

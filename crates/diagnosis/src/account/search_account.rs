@@ -132,7 +132,7 @@ impl Inputs<'_> {
         let t = &self.thresholds().tones;
         let prepared = self.log.prepared;
         let slowest = prepared.runs.iter().map(|run| run.rate_hz).fold(f64::INFINITY, f64::min);
-        let wide_hz = t.band * slowest;
+        let wide_hz = t.cutoff_hz(slowest);
         let is_wide = wide_hz >= t.least_band * prepared.cutoff_hz;
         is_wide.then_some([t.lowest_hz, t.highest * wide_hz])
     }

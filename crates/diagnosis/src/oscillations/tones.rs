@@ -38,7 +38,7 @@ pub(crate) struct ToneQuestion<'a> {
 }
 
 /// The oscillations in the residual efforts of a robot in a wide band, at the joints that moved: lines of the
-/// spectrum over time and over position that stand out in every run and lower the error by enough. The robot is `found`
+/// spectrum over time and over position that stand out of all runs together and lower the error by enough. The robot is `found`
 /// by a search; a tone must also be in the difference from the one as it is `described`.
 ///
 /// A line as slow as the motion counts under two conditions: it is most of the residual at all times, and at some
@@ -115,15 +115,17 @@ struct Joint<'a> {
     least: Least,
     thresholds: &'a ToneThresholds,
     follows: Follows,
-    runs: &'a [Rest<'a>],
+    runs: &'a [&'a Rest<'a>],
     /// `[run][sample]`.
     left: &'a [Vec<f64>],
     /// `[run][sample]`: the highest value of the beat (rad per unit) at which a sample counts.
     highest: &'a [Vec<f64>],
 }
 
-/// The tones of joint `j`, the strongest first.
+/// The tones of joint `j` in the runs in which it moves, the strongest first.
 fn at_joint(runs: &[Rest], j: usize, least: Least, bands: Bands, t: &ToneThresholds) -> Vec<Tone> {
+    let moving = |run: &&Rest| run.stands[j].iter().filter(|stands| !**stands).count() >= AROUND;
+    let runs: &[&Rest] = &runs.iter().filter(moving).collect::<Vec<_>>();
     let Bands { cutoff_hz, band_hz, slowest_hz } = bands;
     let highest = TAU * t.highest * cutoff_hz;
     // While a joint stands, dry friction holds it with any part of its level, which would pass for a sine.
@@ -132,7 +134,7 @@ fn at_joint(runs: &[Rest], j: usize, least: Least, bands: Bands, t: &ToneThresho
         run.stands[j].iter().enumerate().map(at).collect()
     };
     let of_all = |signal: &dyn Fn(&Rest, usize) -> f64| -> Vec<Vec<f64>> {
-        runs.iter().map(|run| while_moving(run, &|t| signal(run, t))).collect()
+        runs.iter().map(|&run| while_moving(run, &|t| signal(run, t))).collect()
     };
     let mut left = of_all(&|run, t| run.left[j][t]);
     let by_speed = of_all(&|run, t| highest / run.qd[j][t].abs().max(1e-9));
@@ -170,7 +172,7 @@ fn at_joint(runs: &[Rest], j: usize, least: Least, bands: Bands, t: &ToneThresho
 fn is_much_of_its_band(tone: &Tone, clock: &Joint, band_hz: f64) -> bool {
     let Beat::Clock(frequency_hz) = tone.beat else { return false };
     let power = |left: &[Vec<f64>]| -> f64 {
-        let of = |(x, run): (&Vec<f64>, &Rest)| low_pass(x, &run.time, band_hz);
+        let of = |(x, run): (&Vec<f64>, &&Rest)| low_pass(x, &run.time, band_hz);
         left.iter().zip(clock.runs).flat_map(of).map(|x| x * x).sum()
     };
     frequency_hz > band_hz || {
@@ -179,26 +181,30 @@ fn is_much_of_its_band(tone: &Tone, clock: &Joint, band_hz: f64) -> bool {
     }
 }
 
-/// Whether a slow tone is most of the residual in every window, and some windows have no joint with much of its
-/// velocity at the frequency of the tone.
+/// Whether a slow tone is most of the residual in every window in which the joint moves most of the time, and some of these
+/// have no joint with much of its velocity at the frequency of the tone.
 fn is_no_motion(tone: &Tone, clock: &Joint, slowest_hz: f64) -> bool {
     let Beat::Clock(frequency_hz) = tone.beat else { return false };
     let (runs, t) = (clock.runs, clock.thresholds);
     let slow = |left: &[Vec<f64>]| -> Vec<Vec<f64>> {
-        let of = |(x, run): (&Vec<f64>, &Rest)| low_pass(x, &run.time, t.slow_band * slowest_hz);
+        let of = |(x, run): (&Vec<f64>, &&Rest)| low_pass(x, &run.time, t.slow_band * slowest_hz);
         left.iter().zip(runs).map(of).collect()
     };
     let (with, without) = (slow(clock.left), slow(&clock.without(tone)));
     let windows = || {
-        let of = |(r, run): (usize, &Rest)| {
+        let of = |(r, run): (usize, &&Rest)| {
             windows(&run.time, t.window_s).into_iter().map(move |w| (r, w))
         };
-        runs.iter().enumerate().flat_map(of)
+        let counts = |(r, w): &(usize, Range<usize>)| {
+            let highest = clock.highest[*r].get(w.clone()).unwrap_or_default();
+            2 * highest.iter().filter(|highest| **highest > 0.0).count() > w.len()
+        };
+        runs.iter().enumerate().flat_map(of).filter(counts)
     };
     let power = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
     let in_window = |x: &[f64], w: &Range<usize>| x.get(w.clone()).map_or(0.0, power);
     let is_most = |(r, w): (usize, Range<usize>)| {
-        in_window(&without[r], &w) <= (1.0 - t.share_of_slow) * in_window(&with[r], &w)
+        in_window(&without[r], &w) < (1.0 - t.share_of_slow) * in_window(&with[r], &w)
     };
     let is_still = |(r, w): &(usize, Range<usize>)| {
         let moves = |qd: &Vec<f64>| {
@@ -264,7 +270,7 @@ impl Joint<'_> {
         }
     }
 
-    /// The tone of the strongest line of a spectrum, if in every run it stands out from the spectrum without it. The
+    /// The tone of the strongest line of a spectrum, if over all runs it stands out from the spectrum without it. The
     /// tone is removed for this comparison because a line is wide, especially over position.
     fn strongest_tone(&self, spectrum: impl Fn(&Joint) -> Option<Spectrum>) -> Option<Tone> {
         let line = spectrum(self)?.line()?;
@@ -273,7 +279,7 @@ impl Joint<'_> {
         let rest = spectrum(&Joint { left: &left, ..*self })?;
         let around: Vec<f64> = rest.around(line.index)?;
         let ratios = line.power.iter().zip(&around).map(|(p, a)| p / a.max(f64::MIN_POSITIVE));
-        tone.stands_out = ratios.fold(f64::INFINITY, f64::min);
+        tone.stands_out = rarity(ratios.sum(), line.power.len());
         tone.error = tone.error.map(|error| error * rest.beside(line.index, &around).sqrt());
         (tone.stands_out > self.thresholds.above_spectrum).then_some(tone)
     }
@@ -458,14 +464,15 @@ impl Spectrum {
         self.powers.iter().map(Vec::len).min().unwrap_or(0)
     }
 
-    /// The line that stands out most from the power around it, judged by the run in which it stands out least.
+    /// The line that stands out most from the power around it over all runs.
     fn line(&self) -> Option<Line> {
         let length = self.len();
         let around: Vec<Vec<f64>> = self.powers.iter().map(|p| around(&p[..length])).collect();
         let ratio = |r: usize, k: usize| self.powers[r][k] / around[r][k].max(f64::MIN_POSITIVE);
         let runs = 0..self.powers.len();
-        let least = |k: usize| runs.clone().map(|r| ratio(r, k)).fold(f64::INFINITY, f64::min);
-        let index = (0..length).max_by(|&a, &b| least(a).total_cmp(&least(b)))?;
+        let sum = |k: usize| runs.clone().map(|r| ratio(r, k)).sum::<f64>();
+        let sums: Vec<f64> = (0..length).map(sum).collect();
+        let index = (0..length).max_by(|&a, &b| sums[a].total_cmp(&sums[b]))?;
         let (at, step) = (self.first + index as f64 * self.step, self.step);
         Some(Line { index, at, step, power: self.powers.iter().map(|p| p[index]).collect() })
     }
@@ -487,6 +494,26 @@ impl Spectrum {
     }
 }
 
+/// How rare a line is in noise (nats): `-ln P`, with `P` the chance of a sum of power ratios over `runs` as large as `sum`.
+///
+/// The power of white noise at one frequency over its mean is exponential, the sum over `R` runs a Gamma variable:
+///
+/// ```text
+/// P = exp(-S) sum_{k < R} S^k / k!
+/// ```
+fn rarity(sum: f64, runs: usize) -> f64 {
+    let mut term: f64 = 0.0;
+    let terms: Vec<f64> = (0..runs)
+        .map(|k| {
+            term += if k > 0 { (sum / k as f64).ln() } else { 0.0 };
+            term
+        })
+        .collect();
+    let largest = terms.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let all: f64 = terms.iter().map(|term| (term - largest).exp()).sum();
+    sum - largest - all.ln()
+}
+
 /// The mean power of the noise around every value of a spectrum: the median of a block of neighbours over `ln 2`, the
 /// largest of three blocks.
 fn around(power: &[f64]) -> Vec<f64> {
@@ -502,4 +529,20 @@ fn around(power: &[f64]) -> Vec<f64> {
         blocks.iter().copied().fold(0.0, f64::max)
     };
     (0..power.len()).map(near).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of one run the chance is `exp(-S)`, of two `exp(-S) (1 + S)`; a sum of 40 over seven runs is rarer than one of 20 in
+    /// one run, and one of 20 over seven is common.
+    #[test]
+    fn rarity_of_a_line_is_the_tail_of_a_gamma_variable() {
+        assert!((rarity(20.0, 1) - 20.0).abs() < 1e-12);
+        assert!((rarity(20.0, 2) - (20.0 - 21.0_f64.ln())).abs() < 1e-12);
+        // S - ln(1 + S + S^2 / 2! + ... + S^6 / 6!)
+        assert!((rarity(40.0, 7) - 24.288_310_416_379_8).abs() < 1e-9);
+        assert!((rarity(20.0, 7) - 8.273_766_752_242_4).abs() < 1e-9);
+    }
 }

@@ -72,6 +72,7 @@ impl Inputs<'_> {
         let situation = Situation {
             inadequate: self.inadequate[j].clone(),
             findings: effective_findings().count() + oscillations,
+            tones: oscillations,
             own: effective_findings().filter(is_own).count() + oscillations,
             between_encoders: tested.second_encoder.as_ref().map_or(0, |found| found.at(name)),
             unseen: tested.unseen_friction[j],

@@ -17,7 +17,8 @@ pub(crate) fn tone_finding(robot: &Robot, tone: &Tone, common_phase: f64) -> Fin
     };
     let runs = tone.z.len();
     let mut evidence = vec![format!(
-        "a line at {beat:.4} {unit} stands {:.0} times above the spectrum around it in each of {runs} runs",
+        "a line at {beat:.4} {unit} stands out of the spectrum around it in {}: noise has one in exp({:.0}) frequencies",
+        if runs == 1 { "one run".to_owned() } else { format!("{runs} runs together") },
         tone.stands_out
     )];
     evidence.push(format!(
@@ -38,7 +39,6 @@ pub(crate) fn tone_finding(robot: &Robot, tone: &Tone, common_phase: f64) -> Fin
         at: effect_at(robot, hypothesis),
         parameters: parameters(robot, tone, common_phase),
         share_explained: tone.share,
-        // In noise, one of exp(ratio) frequencies of a run exceeds it.
         log_evidence: tone.stands_out,
         held_out_gain: tone.share,
         not_separable_from: Vec::new(),

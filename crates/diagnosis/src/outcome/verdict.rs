@@ -17,6 +17,8 @@ pub(crate) struct Situation<'a> {
     pub inadequate: Option<String>,
     /// Number of findings that lower the held-out error of the joint.
     pub findings: usize,
+    /// Number of these findings that are oscillations: their errors are those of a wider band.
+    pub tones: usize,
     /// Number of these findings that are causes of this joint alone.
     pub own: usize,
     /// Number of findings between the two encoders of the joint.
@@ -98,7 +100,8 @@ impl Situation<'_> {
             return (Verdict::DataInadequate, reason.clone());
         }
         let closed = !self.is_drowned() && (self.is_noise() || self.is_small());
-        let fell = self.remaining_rms < self.nominal_rms || self.findings == 0;
+        // A tone above the band lowers no error in it.
+        let fell = self.remaining_rms < self.nominal_rms || self.findings == self.tones;
         let is_sane = fell && self.remaining_rms < self.torque_rms;
         let blind = hides_friction(self.unseen, self.torque_rms, self.thresholds);
         let verdict = match (self.findings + self.between_encoders > 0, closed) {
@@ -227,6 +230,7 @@ mod tests {
         Situation {
             inadequate: None,
             findings,
+            tones: 0,
             own: findings,
             between_encoders: 0,
             keeps_nominal: false,
@@ -255,6 +259,14 @@ mod tests {
         assert_eq!(joint(1, 0.19, 0.0).verdict().0, Verdict::Explained);
         assert_eq!(joint(0, 0.3, 0.1).verdict().0, Verdict::Unexplained);
         assert_eq!(joint(1, 0.3, 0.1).verdict().0, Verdict::PartlyExplained);
+    }
+
+    /// What is left is a fifth of the effort, and noise may be all of it.
+    #[test]
+    fn a_tone_above_the_band_explains_a_joint_whose_error_in_it_stays() {
+        let with = |tones| Situation { tones, ..joint(1, 2.0, 1.9) }.verdict().0;
+        assert_eq!(with(1), Verdict::PartlyExplained);
+        assert_eq!(with(0), Verdict::Unexplained);
     }
 
     #[test]

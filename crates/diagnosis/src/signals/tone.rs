@@ -29,7 +29,7 @@ pub(crate) struct Tone {
     pub z: Vec<Complex<f64>>,
     /// Standard error of the mean amplitude (N·m or N), of the beat and of the phase at beat zero (rad).
     pub error: [f64; 3],
-    /// Least ratio, over the runs, of its power to that of the spectrum around it.
+    /// How rare a line as strong is in noise with the spectrum around it (nats).
     pub stands_out: f64,
     /// Share of the joint's residual, over the whole band, that is this tone.
     pub share: f64,

@@ -3,6 +3,10 @@
 pub struct ToneThresholds {
     /// Cut-off of the band in which tones are looked for, as a share of the sampling rate (1).
     pub band: f64,
+    /// Least cut-off of that band where the rate allows it (Hz): above the mains.
+    pub band_hz: f64,
+    /// Largest cut-off of that band, as a share of the sampling rate (1).
+    pub widest: f64,
     /// Least width of that band, in cut-offs of the diagnosis (1): a narrower one shows nothing beyond the search.
     pub least_band: f64,
     /// Highest frequency that is searched, as a share of the cut-off of the band (1): above it the low-pass
@@ -19,8 +23,8 @@ pub struct ToneThresholds {
     /// Number of searches for tones where there are any: other effects at first take the place of some tones, which
     /// hides them.
     pub searches: usize,
-    /// Least power of a line over that of the spectrum around it, in every run (1). In noise, one of `exp(20)`
-    /// frequencies of a run exceeds it. With 40 instead of 20, one cause less in 18 trials.
+    /// Least rarity of a line in noise, over all runs in which the joint moves (nats): one of `exp(20)` frequencies of
+    /// noise exceeds it. With 40 instead of 20, one cause less in 18 trials.
     pub above_spectrum: f64,
     /// Largest difference between the frequencies of two lines that count as one, over that of the stronger (1).
     pub one_line: f64,
@@ -58,8 +62,10 @@ impl Default for ToneThresholds {
     fn default() -> Self {
         Self {
             band: 0.1,
+            band_hz: 60.0,
+            widest: 0.45,
             least_band: 1.5,
-            highest: 0.6,
+            highest: 0.85,
             lowest_hz: 0.3,
             fewest_waves: 8.0,
             most_waves: 1000.0,
@@ -79,5 +85,12 @@ impl Default for ToneThresholds {
             window_s: 5.0,
             fewest_still: 2,
         }
+    }
+}
+
+impl ToneThresholds {
+    /// Cut-off of the band in which tones are looked for, in logs of a sampling rate (Hz).
+    pub(crate) fn cutoff_hz(&self, rate_hz: f64) -> f64 {
+        (self.band * rate_hz).max(self.band_hz.min(self.widest * rate_hz))
     }
 }
