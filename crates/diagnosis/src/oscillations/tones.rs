@@ -38,7 +38,8 @@ pub(crate) struct ToneQuestion<'a> {
 }
 
 /// The oscillations in the residual efforts of a robot in a wide band, at the joints that moved: lines of the
-/// spectrum over time and over position that stand out of all runs together and lower the error by enough. The robot is `found`
+/// spectrum over time that stand out of all runs together, and over position that stand out of each, and that lower the
+/// error by enough. The robot is `found`
 /// by a search; a tone must also be in the difference from the one as it is `described`.
 ///
 /// A line as slow as the motion counts under two conditions: it is most of the residual at all times, and at some
@@ -107,6 +108,22 @@ struct Bands {
 enum Follows {
     Position,
     Clock,
+}
+
+impl Follows {
+    /// How rare a line is in noise (nats), from the ratios of its power to that of the spectrum around it in every run.
+    ///
+    /// Over time that of all runs together. Over position that of the run in which it stands out least: friction that
+    /// differs by position has lines in some runs too.
+    fn rarity(self, ratios: impl Iterator<Item = f64>) -> f64 {
+        match self {
+            Self::Position => ratios.fold(f64::INFINITY, f64::min),
+            Self::Clock => {
+                let (sum, runs) = ratios.fold((0.0, 0), |(sum, n), ratio| (sum + ratio, n + 1));
+                rarity(sum, runs)
+            }
+        }
+    }
 }
 
 /// One joint: its residual in every run, and the variable that the phase of a tone in it may follow.
@@ -181,7 +198,7 @@ fn is_much_of_its_band(tone: &Tone, clock: &Joint, band_hz: f64) -> bool {
     }
 }
 
-/// Whether a slow tone is most of the residual in every window in which the joint moves most of the time, and some of these
+/// Whether the joint moves most of the time in every window, a slow tone is most of the residual in each, and some windows
 /// have no joint with much of its velocity at the frequency of the tone.
 fn is_no_motion(tone: &Tone, clock: &Joint, slowest_hz: f64) -> bool {
     let Beat::Clock(frequency_hz) = tone.beat else { return false };
@@ -195,11 +212,7 @@ fn is_no_motion(tone: &Tone, clock: &Joint, slowest_hz: f64) -> bool {
         let of = |(r, run): (usize, &&Rest)| {
             windows(&run.time, t.window_s).into_iter().map(move |w| (r, w))
         };
-        let counts = |(r, w): &(usize, Range<usize>)| {
-            let highest = clock.highest[*r].get(w.clone()).unwrap_or_default();
-            2 * highest.iter().filter(|highest| **highest > 0.0).count() > w.len()
-        };
-        runs.iter().enumerate().flat_map(of).filter(counts)
+        runs.iter().enumerate().flat_map(of)
     };
     let power = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
     let in_window = |x: &[f64], w: &Range<usize>| x.get(w.clone()).map_or(0.0, power);
@@ -216,7 +229,13 @@ fn is_no_motion(tone: &Tone, clock: &Joint, slowest_hz: f64) -> bool {
         };
         !runs[*r].qd.iter().any(moves)
     };
-    windows().all(is_most) && windows().filter(is_still).count() >= t.fewest_still
+    let moves = |(r, w): (usize, Range<usize>)| {
+        let highest = clock.highest[r].get(w.clone()).unwrap_or_default();
+        2 * highest.iter().filter(|highest| **highest > 0.0).count() > w.len()
+    };
+    windows().all(moves)
+        && windows().all(is_most)
+        && windows().filter(is_still).count() >= t.fewest_still
 }
 
 /// The part of a signal below a cut-off.
@@ -246,6 +265,7 @@ struct Spectrum {
     first: f64,
     /// Distance between neighbouring values.
     step: f64,
+    follows: Follows,
 }
 
 /// A line of a spectrum.
@@ -279,7 +299,7 @@ impl Joint<'_> {
         let rest = spectrum(&Joint { left: &left, ..*self })?;
         let around: Vec<f64> = rest.around(line.index)?;
         let ratios = line.power.iter().zip(&around).map(|(p, a)| p / a.max(f64::MIN_POSITIVE));
-        tone.stands_out = rarity(ratios.sum(), line.power.len());
+        tone.stands_out = self.follows.rarity(ratios);
         tone.error = tone.error.map(|error| error * rest.beside(line.index, &around).sqrt());
         (tone.stands_out > self.thresholds.above_spectrum).then_some(tone)
     }
@@ -313,7 +333,7 @@ impl Joint<'_> {
             .into_par_iter()
             .map(|r| self.scan(r, first, step, count))
             .collect();
-        Some(Spectrum { powers, first, step })
+        Some(Spectrum { powers, first, step, follows: self.follows })
     }
 
     /// `|sum r exp(-i periods q)|^2 / n` of one run over the samples that count. It ends where fewer samples are left
@@ -361,7 +381,8 @@ impl Joint<'_> {
             Some(used.iter().map(|z| z.norm_sqr() / x.len() as f64).collect())
         };
         let powers: Vec<Vec<f64>> = self.left.iter().map(power).collect::<Option<_>>()?;
-        Some(Spectrum { powers, first: TAU * first as f64 * step, step: TAU * step })
+        let (first, step, follows) = (TAU * first as f64 * step, TAU * step, self.follows);
+        Some(Spectrum { powers, first, step, follows })
     }
 
     /// The tone of a line, if it has the same amplitude in all runs and is large enough. Its errors are those for
@@ -389,6 +410,9 @@ impl Joint<'_> {
         if least < self.thresholds.same_in_runs * most {
             return None;
         }
+        if !self.lasts(at) {
+            return None;
+        }
         let mut tone = self.fit_tone(at, step)?;
         // A tone whose phase differs from run to run follows another variable.
         let even = tone.amplitude() > self.thresholds.same_phase * least;
@@ -396,6 +420,22 @@ impl Joint<'_> {
         let Least { rms, share } = self.least;
         let pays = tone.share * self.power_of(self.left) > rms.powi(2) * self.sample_count();
         (even && pays && tone.share > share).then_some(tone)
+    }
+
+    /// Whether the first halves of all runs have the same amplitude at a beat (rad per unit) as the second halves, within
+    /// [`ToneThresholds::same_in_runs`]. What comes from a motion that changes its pace does not.
+    fn lasts(&self, at: f64) -> bool {
+        let half = |is_second: bool| {
+            let of = |r: usize| {
+                let middle = self.left[r].len() / 2;
+                let samples = if is_second { middle..self.left[r].len() } else { 0..middle };
+                self.sum_over(r, samples, at)
+            };
+            let sums = (0..self.left.len()).map(of);
+            sums.fold((0.0, 0), |(size, n), (z, count)| (size + z.norm(), n + count))
+        };
+        let [first, second] = [half(false), half(true)].map(|(size, n)| size / n.max(1) as f64);
+        first.min(second) >= self.thresholds.same_in_runs * first.max(second)
     }
 
     /// The tone near a value of the beat (rad per unit), by least squares.
@@ -450,7 +490,13 @@ impl Joint<'_> {
 
     /// `sum r exp(-i at beat)` of one run over the samples that count, and their number.
     fn sum(&self, r: usize, at: f64) -> (Complex<f64>, usize) {
-        let samples = self.left[r].iter().zip(self.beat(r)).zip(&self.highest[r]);
+        self.sum_over(r, 0..self.left[r].len(), at)
+    }
+
+    /// The same over a part of the run.
+    fn sum_over(&self, r: usize, part: Range<usize>, at: f64) -> (Complex<f64>, usize) {
+        let all = self.left[r].iter().zip(self.beat(r)).zip(&self.highest[r]);
+        let samples = all.skip(part.start).take(part.len());
         let counted = samples.filter(|(_, highest)| **highest >= at);
         counted.fold((Complex::new(0.0, 0.0), 0), |(sum, n), ((x, beat), _)| {
             (sum + Complex::cis(-at * beat) * *x, n + 1)
@@ -464,15 +510,15 @@ impl Spectrum {
         self.powers.iter().map(Vec::len).min().unwrap_or(0)
     }
 
-    /// The line that stands out most from the power around it over all runs.
+    /// The line that is rarest in noise.
     fn line(&self) -> Option<Line> {
         let length = self.len();
         let around: Vec<Vec<f64>> = self.powers.iter().map(|p| around(&p[..length])).collect();
         let ratio = |r: usize, k: usize| self.powers[r][k] / around[r][k].max(f64::MIN_POSITIVE);
         let runs = 0..self.powers.len();
-        let sum = |k: usize| runs.clone().map(|r| ratio(r, k)).sum::<f64>();
-        let sums: Vec<f64> = (0..length).map(sum).collect();
-        let index = (0..length).max_by(|&a, &b| sums[a].total_cmp(&sums[b]))?;
+        let rarity = |k: usize| self.follows.rarity(runs.clone().map(|r| ratio(r, k)));
+        let all: Vec<f64> = (0..length).map(rarity).collect();
+        let index = (0..length).max_by(|&a, &b| all[a].total_cmp(&all[b]))?;
         let (at, step) = (self.first + index as f64 * self.step, self.step);
         Some(Line { index, at, step, power: self.powers.iter().map(|p| p[index]).collect() })
     }
