@@ -2,6 +2,7 @@
 
 use checks::synthetic::{Noise, Truth, log, run, wam};
 use diagnosis::{Settings, Silent, Verdict, diagnose};
+use logs::Run;
 
 use crate::world::named;
 
@@ -48,7 +49,9 @@ fn a_motion_as_fast_as_the_cutoff_is_weakened_alike_on_both_sides() {
     let (robot, noise) = (wam(), Noise::of_a_wam());
     for seed in 200..203 {
         let settings = Settings { cutoff_hz: Some(CUTOFF_HZ), ..Settings::default() };
-        let answer = diagnose(&robot, &log(&Truth::of(&robot), seed), &settings, &Silent).unwrap();
+        let of = |k| run(&Truth::of(&robot), &noise, 20.0, 10 * seed + k);
+        let runs: Vec<Run> = (0..3).map(of).collect();
+        let answer = diagnose(&robot, &runs, &settings, &Silent).unwrap();
         assert_eq!(named(&answer.diagnosis), Vec::<String>::new(), "seed {seed}");
         // Of the wrist most is noise.
         let left = &answer.diagnosis.gain.inverse.rms_before_nm;

@@ -2,5 +2,6 @@
 
 pub(crate) mod limits;
 pub(crate) mod lines;
+pub(crate) mod spectral_lines;
 pub(crate) mod tone_fit;
 pub(crate) mod tones;

@@ -1,4 +1,4 @@
-use std::f64::consts::{LN_2, TAU};
+use std::f64::consts::TAU;
 use std::ops::Range;
 
 use effects::Frame;
@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use robot::Robot;
 
 use crate::oscillations::lines::Oscillations;
+use crate::oscillations::spectral_lines::{AROUND, Follows, Line, Lines};
 use crate::oscillations::tone_fit::{Coherence, Sampled, ToneFit};
 use crate::signals::along::Along;
 use crate::signals::log::Log;
@@ -21,12 +22,6 @@ const ORDER: usize = 4;
 /// Number of zeros that are appended to a run before its spectrum is taken, in lengths of the longest run.
 const PADDED: usize = 4;
 
-/// Number of values on either side of a line that are just beside it: eight times its width.
-const BESIDE: usize = 32;
-
-/// Number of frequencies whose median is the power around them.
-const AROUND: usize = 200;
-
 /// Conditions for the tones of a log.
 pub(crate) struct ToneQuestion<'a> {
     /// Frequency below which a line may come from the motion (Hz).
@@ -39,8 +34,8 @@ pub(crate) struct ToneQuestion<'a> {
 
 /// The oscillations in the residual efforts of a robot in a wide band, at the joints that moved: lines of the
 /// spectrum over time that stand out of all runs together, and over position that stand out of each, and that lower the
-/// error by enough. The robot is `found`
-/// by a search; a tone must also be in the difference from the one as it is `described`.
+/// error by enough. The robot is `found` by a search; a tone must also be in the difference from the one as it is
+/// `described`.
 ///
 /// A line as slow as the motion counts under two conditions: it is most of the residual at all times, and at some
 /// times no joint moves much at its frequency.
@@ -101,29 +96,6 @@ struct Bands {
     cutoff_hz: f64,
     band_hz: f64,
     slowest_hz: f64,
-}
-
-/// The variable that the phase of a tone may follow.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Follows {
-    Position,
-    Clock,
-}
-
-impl Follows {
-    /// How rare a line is in noise (nats), from the ratios of its power to that of the spectrum around it in every run.
-    ///
-    /// Over time that of all runs together. Over position that of the run in which it stands out least: friction that
-    /// differs by position has lines in some runs too.
-    fn rarity(self, ratios: impl Iterator<Item = f64>) -> f64 {
-        match self {
-            Self::Position => ratios.fold(f64::INFINITY, f64::min),
-            Self::Clock => {
-                let (sum, runs) = ratios.fold((0.0, 0), |(sum, n), ratio| (sum + ratio, n + 1));
-                rarity(sum, runs)
-            }
-        }
-    }
 }
 
 /// One joint: its residual in every run, and the variable that the phase of a tone in it may follow.
@@ -257,30 +229,6 @@ fn windows(time: &[f64], window_s: f64) -> Vec<Range<usize>> {
     (0..count).map(|i| i * time.len() / count..(i + 1) * time.len() / count).collect()
 }
 
-/// The spectra of all runs over the same values.
-struct Spectrum {
-    /// `[run][value]`
-    powers: Vec<Vec<f64>>,
-    /// The first value of the phase per unit of beat.
-    first: f64,
-    /// Distance between neighbouring values.
-    step: f64,
-    follows: Follows,
-}
-
-/// A line of a spectrum.
-#[derive(Debug, Clone)]
-struct Line {
-    /// Index of the line in the spectrum.
-    index: usize,
-    /// Phase per unit of beat.
-    at: f64,
-    /// Distance between neighbouring values of the spectrum.
-    step: f64,
-    /// Power of the line in every run.
-    power: Vec<f64>,
-}
-
 impl Joint<'_> {
     /// The variable that the phase follows in run `r` (s; or rad or m).
     fn beat(&self, r: usize) -> &[f64] {
@@ -292,14 +240,14 @@ impl Joint<'_> {
 
     /// The tone of the strongest line of a spectrum, if over all runs it stands out from the spectrum without it. The
     /// tone is removed for this comparison because a line is wide, especially over position.
-    fn strongest_tone(&self, spectrum: impl Fn(&Joint) -> Option<Spectrum>) -> Option<Tone> {
+    fn strongest_tone(&self, spectrum: impl Fn(&Joint) -> Option<Lines>) -> Option<Tone> {
         let line = spectrum(self)?.line()?;
         let mut tone = self.tone(&line)?;
         let left = self.without(&tone);
         let rest = spectrum(&Joint { left: &left, ..*self })?;
         let around: Vec<f64> = rest.around(line.index)?;
         let ratios = line.power.iter().zip(&around).map(|(p, a)| p / a.max(f64::MIN_POSITIVE));
-        tone.stands_out = self.follows.rarity(ratios);
+        tone.stands_out = self.follows.surprisal(ratios);
         tone.error = tone.error.map(|error| error * rest.beside(line.index, &around).sqrt());
         (tone.stands_out > self.thresholds.above_spectrum).then_some(tone)
     }
@@ -317,7 +265,7 @@ impl Joint<'_> {
     }
 
     /// The spectra over position.
-    fn waves(&self) -> Option<Spectrum> {
+    fn waves(&self) -> Option<Lines> {
         let all = || (0..self.runs.len()).flat_map(|r| self.beat(r).iter().copied());
         let (low, high) =
             all().fold((f64::INFINITY, -f64::INFINITY), |(l, h), q| (l.min(q), h.max(q)));
@@ -333,7 +281,7 @@ impl Joint<'_> {
             .into_par_iter()
             .map(|r| self.scan(r, first, step, count))
             .collect();
-        Some(Spectrum { powers, first, step, follows: self.follows })
+        Some(Lines { powers, first, step, follows: self.follows })
     }
 
     /// `|sum r exp(-i periods q)|^2 / n` of one run over the samples that count. It ends where fewer samples are left
@@ -362,7 +310,7 @@ impl Joint<'_> {
     }
 
     /// The spectra over time between two frequencies (Hz).
-    fn lines(&self, [lowest_hz, highest_hz]: [f64; 2]) -> Option<Spectrum> {
+    fn lines(&self, [lowest_hz, highest_hz]: [f64; 2]) -> Option<Lines> {
         let longest = self.left.iter().map(Vec::len).max()?;
         let size = (PADDED * longest).next_power_of_two();
         let times = self.runs.iter().map(|run| &run.time).max_by_key(|t| t.len())?;
@@ -382,7 +330,7 @@ impl Joint<'_> {
         };
         let powers: Vec<Vec<f64>> = self.left.iter().map(power).collect::<Option<_>>()?;
         let (first, step, follows) = (TAU * first as f64 * step, TAU * step, self.follows);
-        Some(Spectrum { powers, first, step, follows })
+        Some(Lines { powers, first, step, follows })
     }
 
     /// The tone of a line, if it has the same amplitude in all runs and is large enough. Its errors are those for
@@ -501,94 +449,5 @@ impl Joint<'_> {
         counted.fold((Complex::new(0.0, 0.0), 0), |(sum, n), ((x, beat), _)| {
             (sum + Complex::cis(-at * beat) * *x, n + 1)
         })
-    }
-}
-
-impl Spectrum {
-    /// Number of values that every run has.
-    fn len(&self) -> usize {
-        self.powers.iter().map(Vec::len).min().unwrap_or(0)
-    }
-
-    /// The line that is rarest in noise.
-    fn line(&self) -> Option<Line> {
-        let length = self.len();
-        let around: Vec<Vec<f64>> = self.powers.iter().map(|p| around(&p[..length])).collect();
-        let ratio = |r: usize, k: usize| self.powers[r][k] / around[r][k].max(f64::MIN_POSITIVE);
-        let runs = 0..self.powers.len();
-        let rarity = |k: usize| self.follows.rarity(runs.clone().map(|r| ratio(r, k)));
-        let all: Vec<f64> = (0..length).map(rarity).collect();
-        let index = (0..length).max_by(|&a, &b| all[a].total_cmp(&all[b]))?;
-        let (at, step) = (self.first + index as f64 * self.step, self.step);
-        Some(Line { index, at, step, power: self.powers.iter().map(|p| p[index]).collect() })
-    }
-
-    /// Variance of white noise with the power just beside a value, or with the power around it if that is larger. A
-    /// strong tone that is no pure sine leaks power there.
-    fn beside(&self, index: usize, around: &[f64]) -> f64 {
-        let of = |(power, around): (&Vec<f64>, &f64)| {
-            let near = &power[index.saturating_sub(BESIDE)..(index + BESIDE + 1).min(power.len())];
-            around.max(near.iter().sum::<f64>() / near.len() as f64)
-        };
-        self.powers.iter().zip(around).map(of).sum::<f64>() / around.len().max(1) as f64
-    }
-
-    /// The power around a value in every run.
-    fn around(&self, index: usize) -> Option<Vec<f64>> {
-        let length = self.len();
-        self.powers.iter().map(|p| around(&p[..length]).get(index).copied()).collect()
-    }
-}
-
-/// How rare a line is in noise (nats): `-ln P`, with `P` the chance of a sum of power ratios over `runs` as large as `sum`.
-///
-/// The power of white noise at one frequency over its mean is exponential, the sum over `R` runs a Gamma variable:
-///
-/// ```text
-/// P = exp(-S) sum_{k < R} S^k / k!
-/// ```
-fn rarity(sum: f64, runs: usize) -> f64 {
-    let mut term: f64 = 0.0;
-    let terms: Vec<f64> = (0..runs)
-        .map(|k| {
-            term += if k > 0 { (sum / k as f64).ln() } else { 0.0 };
-            term
-        })
-        .collect();
-    let largest = terms.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let all: f64 = terms.iter().map(|term| (term - largest).exp()).sum();
-    sum - largest - all.ln()
-}
-
-/// The mean power of the noise around every value of a spectrum: the median of a block of neighbours over `ln 2`, the
-/// largest of three blocks.
-fn around(power: &[f64]) -> Vec<f64> {
-    let median = |block: &[f64]| {
-        let mut sorted = block.to_vec();
-        sorted.sort_by(f64::total_cmp);
-        sorted[sorted.len() / 2] / LN_2
-    };
-    let medians: Vec<f64> = power.chunks(AROUND).map(median).collect();
-    let near = |k: usize| {
-        let b = k / AROUND;
-        let blocks = &medians[b.saturating_sub(1)..(b + 2).min(medians.len())];
-        blocks.iter().copied().fold(0.0, f64::max)
-    };
-    (0..power.len()).map(near).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Of one run the chance is `exp(-S)`, of two `exp(-S) (1 + S)`; a sum of 40 over seven runs is rarer than one of 20 in
-    /// one run, and one of 20 over seven is common.
-    #[test]
-    fn rarity_of_a_line_is_the_tail_of_a_gamma_variable() {
-        assert!((rarity(20.0, 1) - 20.0).abs() < 1e-12);
-        assert!((rarity(20.0, 2) - (20.0 - 21.0_f64.ln())).abs() < 1e-12);
-        // S - ln(1 + S + S^2 / 2! + ... + S^6 / 6!)
-        assert!((rarity(40.0, 7) - 24.288_310_416_379_8).abs() < 1e-9);
-        assert!((rarity(20.0, 7) - 8.273_766_752_242_4).abs() < 1e-9);
     }
 }

@@ -23,7 +23,7 @@ pub struct ToneThresholds {
     /// Number of searches for tones where there are any: other effects at first take the place of some tones, which
     /// hides them.
     pub searches: usize,
-    /// Least rarity of a line in noise, over all runs in which the joint moves (nats): one of `exp(20)` frequencies of
+    /// Least surprisal of a line in noise, over all runs in which the joint moves (nats): one of `exp(20)` frequencies of
     /// noise exceeds it. With 40 instead of 20, one cause less in 18 trials.
     pub above_spectrum: f64,
     /// Largest difference between the frequencies of two lines that count as one, over that of the stronger (1).
