@@ -95,11 +95,12 @@ fn what_holds_a_standing_joint_is_no_tone() {
 }
 
 /// Described friction that turns more slowly than its model: while a joint changes its direction, dry friction may have
-/// any value up to its level, and neither a delay nor another friction is named for it.
+/// any value up to its level, and nothing is called late for it, nor another level or a damping put in its place.
 #[test]
-fn described_friction_that_turns_slowly_has_no_other_name() {
+fn described_friction_that_turns_slowly_is_not_late() {
     const LEVELS_NM: [f64; 7] = [3.0, 3.0, 2.0, 2.0, 0.4, 0.4, 0.1];
     const SLOW_RAD_PER_S: f64 = 0.05;
+    const OTHERS: [&str; 5] = ["delay", "lag", "skew", "viscous", "Coulomb"];
     let mut robot = wam();
     for (j, level) in LEVELS_NM.into_iter().enumerate() {
         let drive = &mut robot.link_mut(j).unwrap().actuator;
@@ -111,7 +112,8 @@ fn described_friction_that_turns_slowly_has_no_other_name() {
     for seed in 310..314 {
         let runs = log(&truth, seed);
         let answer = diagnose(&robot, &runs, &Settings::default(), &Silent).unwrap().diagnosis;
-        names.extend(named(&answer));
+        let is_other = |name: &String| OTHERS.iter().any(|other| name.contains(other));
+        names.extend(named(&answer).into_iter().filter(is_other));
     }
     assert_eq!(names, Vec::<String>::new());
 }
