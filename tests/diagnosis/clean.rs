@@ -49,8 +49,8 @@ fn a_motion_as_fast_as_the_cutoff_is_weakened_alike_on_both_sides() {
     let (robot, noise) = (wam(), Noise::of_a_wam());
     for seed in 200..203 {
         let settings = Settings { cutoff_hz: Some(CUTOFF_HZ), ..Settings::default() };
-        let of = |k| run(&Truth::of(&robot), &noise, 20.0, 10 * seed + k);
-        let runs: Vec<Run> = (0..3).map(of).collect();
+        let of = |k: u64| run(&Truth::of(&robot), &noise, 20.0, 10 * seed + k);
+        let runs: Vec<Run> = (0..3_u64).map(of).collect();
         let answer = diagnose(&robot, &runs, &settings, &Silent).unwrap();
         assert_eq!(named(&answer.diagnosis), Vec::<String>::new(), "seed {seed}");
         // Of the wrist most is noise.

@@ -30,7 +30,7 @@ impl Follows {
 }
 
 /// The spectra of all runs over the same values.
-pub(crate) struct Lines {
+pub(crate) struct SpectralLines {
     /// `[run][value]`
     pub powers: Vec<Vec<f64>>,
     /// The first value of the phase per unit of beat.
@@ -42,7 +42,7 @@ pub(crate) struct Lines {
 
 /// A line of a spectrum.
 #[derive(Debug, Clone)]
-pub(crate) struct Line {
+pub(crate) struct SpectralLine {
     /// Index of the line in the spectrum.
     pub index: usize,
     /// Phase per unit of beat.
@@ -53,14 +53,14 @@ pub(crate) struct Line {
     pub power: Vec<f64>,
 }
 
-impl Lines {
+impl SpectralLines {
     /// Number of values that every run has.
     fn len(&self) -> usize {
         self.powers.iter().map(Vec::len).min().unwrap_or(0)
     }
 
     /// The line that is rarest in noise.
-    pub fn line(&self) -> Option<Line> {
+    pub fn line(&self) -> Option<SpectralLine> {
         let length = self.len();
         let around: Vec<Vec<f64>> = self.powers.iter().map(|p| around(&p[..length])).collect();
         let ratio = |r: usize, k: usize| self.powers[r][k] / around[r][k].max(f64::MIN_POSITIVE);
@@ -69,7 +69,12 @@ impl Lines {
         let all: Vec<f64> = (0..length).map(surprisal).collect();
         let index = (0..length).max_by(|&a, &b| all[a].total_cmp(&all[b]))?;
         let (at, step) = (self.first + index as f64 * self.step, self.step);
-        Some(Line { index, at, step, power: self.powers.iter().map(|p| p[index]).collect() })
+        Some(SpectralLine {
+            index,
+            at,
+            step,
+            power: self.powers.iter().map(|p| p[index]).collect(),
+        })
     }
 
     /// Variance of white noise with the power just beside a value, or with the power around it if that is larger. A

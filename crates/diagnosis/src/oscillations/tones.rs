@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use robot::Robot;
 
 use crate::oscillations::lines::Oscillations;
-use crate::oscillations::spectral_lines::{AROUND, Follows, Line, Lines};
+use crate::oscillations::spectral_lines::{AROUND, Follows, SpectralLine, SpectralLines};
 use crate::oscillations::tone_fit::{Coherence, Sampled, ToneFit};
 use crate::signals::along::Along;
 use crate::signals::log::Log;
@@ -240,7 +240,7 @@ impl Joint<'_> {
 
     /// The tone of the strongest line of a spectrum, if over all runs it stands out from the spectrum without it. The
     /// tone is removed for this comparison because a line is wide, especially over position.
-    fn strongest_tone(&self, spectrum: impl Fn(&Joint) -> Option<Lines>) -> Option<Tone> {
+    fn strongest_tone(&self, spectrum: impl Fn(&Joint) -> Option<SpectralLines>) -> Option<Tone> {
         let line = spectrum(self)?.line()?;
         let mut tone = self.tone(&line)?;
         let left = self.without(&tone);
@@ -265,7 +265,7 @@ impl Joint<'_> {
     }
 
     /// The spectra over position.
-    fn waves(&self) -> Option<Lines> {
+    fn waves(&self) -> Option<SpectralLines> {
         let all = || (0..self.runs.len()).flat_map(|r| self.beat(r).iter().copied());
         let (low, high) =
             all().fold((f64::INFINITY, -f64::INFINITY), |(l, h), q| (l.min(q), h.max(q)));
@@ -281,7 +281,7 @@ impl Joint<'_> {
             .into_par_iter()
             .map(|r| self.scan(r, first, step, count))
             .collect();
-        Some(Lines { powers, first, step, follows: self.follows })
+        Some(SpectralLines { powers, first, step, follows: self.follows })
     }
 
     /// `|sum r exp(-i periods q)|^2 / n` of one run over the samples that count. It ends where fewer samples are left
@@ -310,7 +310,7 @@ impl Joint<'_> {
     }
 
     /// The spectra over time between two frequencies (Hz).
-    fn lines(&self, [lowest_hz, highest_hz]: [f64; 2]) -> Option<Lines> {
+    fn lines(&self, [lowest_hz, highest_hz]: [f64; 2]) -> Option<SpectralLines> {
         let longest = self.left.iter().map(Vec::len).max()?;
         let size = (PADDED * longest).next_power_of_two();
         let times = self.runs.iter().map(|run| &run.time).max_by_key(|t| t.len())?;
@@ -330,12 +330,12 @@ impl Joint<'_> {
         };
         let powers: Vec<Vec<f64>> = self.left.iter().map(power).collect::<Option<_>>()?;
         let (first, step, follows) = (TAU * first as f64 * step, TAU * step, self.follows);
-        Some(Lines { powers, first, step, follows })
+        Some(SpectralLines { powers, first, step, follows })
     }
 
     /// The tone of a line, if it has the same amplitude in all runs and is large enough. Its errors are those for
     /// noise of variance one.
-    fn tone(&self, line: &Line) -> Option<Tone> {
+    fn tone(&self, line: &SpectralLine) -> Option<Tone> {
         let runs = 0..self.left.len();
         let power = |at: f64| -> f64 {
             let sums = runs.clone().map(|r| self.sum(r, at));
