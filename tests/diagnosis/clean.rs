@@ -6,13 +6,13 @@ use logs::Run;
 
 use crate::world::named;
 
-/// A log of the model itself plus noise is called consistent at every joint in at least 38
-/// of 40 seeds.
+/// A log of the model itself plus noise is called consistent at every joint in at least 95
+/// of 100 seeds.
 #[test]
 fn same_model_logs_are_consistent_at_every_joint() {
     let robot = wam();
     let mut bad = Vec::new();
-    for seed in 0..40 {
+    for seed in 0..100 {
         let runs = log(&Truth::of(&robot), seed);
         let answer = diagnose(&robot, &runs, &Settings::default(), &Silent).unwrap().diagnosis;
         if answer.joints.iter().any(|j| j.verdict != Verdict::Consistent) {
@@ -37,8 +37,8 @@ fn same_model_logs_are_consistent_at_every_joint() {
             bad.push(format!("seed {seed} {data:?}: {findings:?} {joints:?}"));
         }
     }
-    println!("{} of 40 logs are consistent at every joint", 40 - bad.len());
-    assert!(bad.len() <= 2, "{} of 40 logs are not consistent:\n{}", bad.len(), bad.join("\n"));
+    println!("{} of 100 logs are consistent at every joint", 100 - bad.len());
+    assert!(bad.len() <= 5, "{} of 100 logs are not consistent:\n{}", bad.len(), bad.join("\n"));
 }
 
 /// With a cut-off in the midst of the motion, which goes up to 1 Hz and beyond: what the model makes
