@@ -6,6 +6,7 @@ use robot::Robot;
 use crate::error::DiagnosisError;
 use crate::find_tones::ToneSearch;
 use crate::oscillations::limits::limits;
+use crate::oscillations::lines::RingingBand;
 use crate::outcome::held_out::HeldOutPart;
 use crate::outcome::hold::words_for_hold;
 use crate::outcome::second_encoder::compare_encoders;
@@ -123,9 +124,7 @@ pub(crate) fn with_inputs<T>(
     let log = Log { described, limits: &limits, ..log };
     let search = ToneSearch { nominal: robot, about, settings, log, inadequate: &inadequate };
     let (oscillations, shaped) = search.find_tones(runs)?;
-    warnings.extend(
-        oscillations.ringing.iter().map(|&(joint, hz)| words_for_ringing(robot, joint, hz)),
-    );
+    warnings.extend(oscillations.ringing.iter().map(|band| words_for_ringing(robot, band)));
     progress.step();
     let inputs = Inputs {
         nominal: robot,
@@ -172,10 +171,11 @@ fn differ_in_drives(described: &Robot, about: &Robot) -> bool {
     })
 }
 
-fn words_for_ringing(robot: &Robot, joint: usize, hz: f64) -> String {
-    let name = robot.joint_names().nth(joint).unwrap_or_default();
+fn words_for_ringing(robot: &Robot, band: &RingingBand) -> String {
+    let name = robot.joint_names().nth(band.joint).unwrap_or_default();
+    let [low, high] = band.hz;
     format!(
-        "{name} oscillates in a band about {hz:.1} Hz: not one tone that something keeps up, but something that rings, such as a spring or a control loop with too much delay for its gains"
+        "{name} oscillates in a band from {low:.1} to {high:.1} Hz, which no single tone explains: something vibrates, such as a spring or a control loop with too much delay for its gains"
     )
 }
 

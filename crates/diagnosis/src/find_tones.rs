@@ -2,6 +2,7 @@ use logs::{PrepareSettings, Run, centre_commands, prepare};
 use robot::Robot;
 
 use crate::columns::design::Design;
+use crate::columns::repeats::have_one_spectrum;
 use crate::columns::shapes::with_best_shapes;
 use crate::error::DiagnosisError;
 use crate::oscillations::lines::Oscillations;
@@ -80,13 +81,17 @@ fn tones_left_by(inputs: &Inputs, runs: &[Run]) -> Result<Oscillations, Diagnosi
     centre_commands(&extended, &mut wide.runs, settings.control_rate_hz);
     // A line as slow as the motion may be the motion's, and a faster one too where the motion repeats.
     let motions = &inputs.design.motion;
-    let all_differ = motions.len() >= 2 && motions.iter().enumerate().all(|(r, m)| *m == r);
+    let all_differ = motions.len() >= 2
+        && motions.iter().enumerate().all(|(r, m)| *m == r)
+        && !have_one_spectrum(inputs.design.runs_to_compare(&settings.thresholds.signals));
     let slowest_hz = if all_differ { prepared.motion_hz } else { prepared.cutoff_hz };
     let (practical, open_share) = (&inputs.practical(), settings.open_share);
     let question = ToneQuestion { slowest_hz, practical, open_share };
-    let found = tones([&extended, inputs.nominal], &wide, &inputs.log, &question)?;
-    if !found.tones.is_empty() || extended == *inputs.nominal {
-        return Ok(found);
+    let mut found = tones([&extended, inputs.nominal], &wide, &inputs.log, &question)?;
+    if found.tones.is_empty() && extended != *inputs.nominal {
+        let described = tones([inputs.nominal; 2], &wide, &inputs.log, &question)?;
+        found.tones =
+            described.tones.into_iter().filter(|tone| !found.is_in_a_band(tone)).collect();
     }
-    Ok(tones([inputs.nominal; 2], &wide, &inputs.log, &question)?)
+    Ok(found)
 }

@@ -33,7 +33,12 @@ pub struct ToneThresholds {
     pub same_in_runs: f64,
     /// Least amplitude of the common fit over the least amplitude in a run (1), for the runs to share a phase.
     pub same_phase: f64,
-    /// Ratio of the amplitudes of a weaker and a stronger line side by side, above which they are a band that rings
+    /// Largest difference between the frequencies of lines of one band, over that of the strongest (1): a third of an
+    /// octave. The lines of the UR10's elbow lie between .94 and 1.20 of the strongest.
+    pub one_band: f64,
+    /// Fewest lines of a band that are further apart than [`Self::one_line`]: two may be two tones.
+    pub band_lines: usize,
+    /// Ratio of the amplitudes of a weaker and a stronger line of a band, above which they are a band that rings
     /// (1).
     pub ringing: f64,
     /// Least length of the mean of the unit phasors of all runs for a phase to be reported (1).
@@ -73,6 +78,8 @@ impl Default for ToneThresholds {
             searches: 2,
             above_spectrum: 20.0,
             one_line: 0.05,
+            one_band: 0.26,
+            band_lines: 3,
             same_in_runs: 0.5,
             same_phase: 0.5,
             ringing: 0.5,
