@@ -41,11 +41,10 @@ pub(crate) struct FindingBuilder<'a> {
 
 impl FindingBuilder<'_> {
     /// Every hypothesis of the model as a finding, with its size in the last fit; the largest share first.
-    pub fn findings(&self, fitted: &LinearFit) -> Vec<FindingWithFall> {
+    pub fn findings(&self, fitted: &LinearFit, unnamed: &Unnamed) -> Vec<FindingWithFall> {
         let problem = self.selection.problem;
         let Some(fit) = problem.fit(self.model) else { return Vec::new() };
         let Some(uncertainty) = Uncertainty::of(fitted) else { return Vec::new() };
-        let unnamed = Unnamed::new(self.selection, self.model, &fit);
         let uncertainty = uncertainty
             .with_unnamed_effects(|columns| unnamed.about(fitted.problem.design, columns));
         let with = problem.hold_out(self.model);

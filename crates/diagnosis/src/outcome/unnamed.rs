@@ -3,11 +3,11 @@ use nalgebra::{Cholesky, DMatrix};
 use robot::Robot;
 
 use crate::columns::design::{Design, Group};
-use crate::regression::fit::Fit;
 use crate::regression::problem::HypothesisSet;
 use crate::search::select::Selection;
 
-/// Uncertainty of the sizes of the findings that comes from effects outside the model.
+/// Uncertainty of the sizes of the findings that comes from effects outside the model, about the robot that has the
+/// findings: a gain scales the torque that this robot needs, not the damping that its description is wrong by.
 ///
 /// Every arm has small errors, and the findings absorb the torque of the unnamed ones. `w_S` are the weights of a
 /// model. `w_K = B^-1 u` are those of an effect outside it, which change the weights of the model by `-share w_K`
@@ -34,10 +34,12 @@ pub(crate) struct Unnamed<'a> {
 }
 
 impl<'a> Unnamed<'a> {
-    /// The covariance from effects outside of `model`, of which `fit` is the fit.
-    pub fn new(selection: &Selection<'a>, model: &HypothesisSet, fit: &Fit) -> Self {
+    /// The covariance from effects outside of `model`, which `selection` has about the robot with its findings. `None`
+    /// where the model cannot be fitted.
+    pub fn new(selection: &Selection<'a>, model: &HypothesisSet) -> Option<Self> {
         let problem = selection.problem;
         let (design, info) = (problem.design, &problem.info);
+        let fit = problem.fit(model)?;
         let prior = prior_of_small_errors(design, selection.robot, &problem.thresholds.priors);
         let mut covariance = DMatrix::zeros(fit.columns.len(), fit.columns.len());
         for h in 0..design.groups.len() {
@@ -53,7 +55,7 @@ impl<'a> Unnamed<'a> {
             let p = (1.0 + (selection.least_evidence(h) - gain).exp()).recip();
             covariance += complement.propagate(&(factor.inverse() + &w * w.transpose())) * p;
         }
-        Self { design, columns: fit.columns.clone(), covariance }
+        Some(Self { design, columns: fit.columns, covariance })
     }
 
     /// The covariance of the columns of a fit about another robot; zero for columns that only this fit has.

@@ -82,6 +82,12 @@ impl<'a> Problem<'a> {
         Self { design, blocks, grams, of, folds, sums, weight, thresholds, info, training }
     }
 
+    /// The same blocks and weights in a design about another robot.
+    pub fn about<'b>(&'b self, design: &'b Design, grams: &'b Grams) -> Problem<'b> {
+        let weight = self.weight.clone();
+        Problem::new(design, self.blocks, grams, &self.of, weight, self.thresholds)
+    }
+
     /// The same problem with other weights.
     pub fn with_weights(&self, weight: Vec<f64>) -> Self {
         let weigh = |sums: &Vec<JointGram>| self.grams.weigh(sums, &weight);
