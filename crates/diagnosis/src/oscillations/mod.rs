@@ -5,3 +5,4 @@ pub(crate) mod lines;
 pub(crate) mod spectral_lines;
 pub(crate) mod tone_fit;
 pub(crate) mod tones;
+pub(crate) mod turning_sum;

@@ -10,6 +10,7 @@ use robot::Robot;
 use crate::oscillations::lines::Oscillations;
 use crate::oscillations::spectral_lines::{AROUND, Follows, SpectralLine, SpectralLines};
 use crate::oscillations::tone_fit::{Coherence, Sampled, ToneFit};
+use crate::oscillations::turning_sum::TurningSum;
 use crate::signals::along::Along;
 use crate::signals::log::Log;
 use crate::signals::rest::Rest;
@@ -21,6 +22,10 @@ const ORDER: usize = 4;
 
 /// Number of zeros that are appended to a run before its spectrum is taken, in lengths of the longest run.
 const PADDED: usize = 4;
+
+/// Values on either side of a line among which its beat is looked for, a tenth of the step of the spectrum apart, and then
+/// a hundredth.
+const NEAR: usize = 10;
 
 /// Conditions for the tones of a log.
 pub(crate) struct ToneQuestion<'a> {
@@ -290,10 +295,11 @@ impl Joint<'_> {
         let mut order: Vec<usize> = (0..self.left[r].len()).collect();
         order.sort_by(|&a, &b| self.highest[r][b].total_cmp(&self.highest[r][a]));
         let beat = self.beat(r);
-        let signal = |at: f64| order.iter().map(move |&t| Complex::cis(-at * beat[t]));
-        let turns: Vec<Complex<f64>> = signal(step).collect();
-        let mut now: Vec<Complex<f64>> =
-            signal(first).zip(&order).map(|(z, &t)| z * self.left[r][t]).collect();
+        let at_all = |at: f64| order.iter().map(move |&t| Complex::cis(-at * beat[t]));
+        let mut terms = TurningSum::new(
+            at_all(first).zip(&order).map(|(z, &t)| z * self.left[r][t]),
+            at_all(step),
+        );
         let mut powers = Vec::with_capacity(count);
         for k in 0..count {
             let at = first + k as f64 * step;
@@ -301,10 +307,7 @@ impl Joint<'_> {
             if counted < AROUND {
                 break;
             }
-            now.truncate(counted);
-            let sum: Complex<f64> = now.iter().sum();
-            powers.push(sum.norm_sqr() / counted as f64);
-            now.iter_mut().zip(&turns).for_each(|(z, turn)| *z *= turn);
+            powers.push(terms.sum_and_turn(counted).norm_sqr() / counted as f64);
         }
         powers
     }
@@ -336,21 +339,12 @@ impl Joint<'_> {
     /// The tone of a line, if it has the same amplitude in all runs and is large enough. Its errors are those for
     /// noise of variance one.
     fn tone(&self, line: &SpectralLine) -> Option<Tone> {
-        let runs = 0..self.left.len();
-        let power = |at: f64| -> f64 {
-            let sums = runs.clone().map(|r| self.sum(r, at));
-            match self.follows {
-                Follows::Position => sums.map(|(z, _)| z).sum::<Complex<f64>>().norm_sqr(),
-                Follows::Clock => sums.map(|(z, _)| z.norm_sqr()).sum(),
-            }
-        };
         let (mut at, mut step) = (line.at, line.step);
         for _ in 0..2 {
-            let near = (-10..=10).map(|k| at + 0.1 * f64::from(k) * step);
-            at = near.max_by(|a, b| power(*a).total_cmp(&power(*b)))?;
+            at = self.strongest_near(at, 0.1 * step);
             step *= 0.1;
         }
-        let sums = runs.map(|r| self.sum(r, at));
+        let sums = (0..self.left.len()).map(|r| self.sum(r, at));
         let sizes: Vec<(f64, usize)> =
             sums.map(|(z, n)| (2.0 * z.norm() / n.max(1) as f64, n)).collect();
         let (least, most) =
@@ -368,6 +362,37 @@ impl Joint<'_> {
         let Least { rms, share } = self.least;
         let pays = tone.share * self.power_of(self.left) > rms.powi(2) * self.sample_count();
         (even && pays && tone.share > share).then_some(tone)
+    }
+
+    /// The value of the beat (rad per unit) of most power among those up to [`NEAR`] steps from `at`.
+    fn strongest_near(&self, at: f64, step: f64) -> f64 {
+        let (first, count) = (at - NEAR as f64 * step, 2 * NEAR + 1);
+        let runs: Vec<Vec<Complex<f64>>> =
+            (0..self.left.len()).map(|r| self.sums(r, first, step, count)).collect();
+        let power = |k: usize| -> f64 {
+            let sums = runs.iter().map(|sums| sums[k]);
+            match self.follows {
+                Follows::Position => sums.sum::<Complex<f64>>().norm_sqr(),
+                Follows::Clock => sums.map(|z| z.norm_sqr()).sum(),
+            }
+        };
+        let best = (0..count).max_by(|&a, &b| power(a).total_cmp(&power(b)));
+        first + best.unwrap_or(NEAR) as f64 * step
+    }
+
+    /// `sum r exp(-i at beat)` of one run over the samples that count, at `count` values of `at` from `first`.
+    fn sums(&self, r: usize, first: f64, step: f64, count: usize) -> Vec<Complex<f64>> {
+        let mut sums = vec![Complex::new(0.0, 0.0); count];
+        let all = self.left[r].iter().zip(self.beat(r)).zip(&self.highest[r]);
+        for ((x, beat), highest) in all.filter(|(_, highest)| **highest >= first) {
+            let (mut z, turn) = (Complex::cis(-first * beat) * *x, Complex::cis(-step * beat));
+            let counted = sums.iter_mut().zip(0_u32..);
+            for (sum, _) in counted.take_while(|(_, k)| first + f64::from(*k) * step <= *highest) {
+                *sum += z;
+                z *= turn;
+            }
+        }
+        sums
     }
 
     /// Whether the first halves of all runs have the same amplitude at a beat (rad per unit) as the second halves, within
