@@ -174,6 +174,26 @@ fn no_effort_column() {
 }
 
 #[test]
+fn a_joint_without_an_effort_beside_one_that_has_it_is_named() {
+    let header = "time,j1.position,j1.effort,j2.position,j2.velocity";
+    let file = Scratch::new("run.csv", format!("{header}\n0,1,2,3,4\n1,1,2,3,4\n"));
+    assert_eq!(
+        file.message(&two_joints()),
+        "run.csv: joint j2 has no effort: there is no column j2.effort"
+    );
+    let file = Scratch::new("run.csv", format!("{HEADER}\n0,1,2,3,NaN\n1,1,2,3,NaN\n"));
+    let Err(LogError::EffortAbsent { joint, what, others, .. }) = file.read(&two_joints()) else {
+        panic!("an effort without a number was read")
+    };
+    assert_eq!((joint.as_str(), others.as_ref()), ("j2", &["j1".to_owned()][..]));
+    assert_eq!(&*what, "column j2.effort holds no number in 2 rows");
+    // One that is not finite now and then is a mistake in that row.
+    let file = Scratch::new("run.csv", format!("{HEADER}\n0,1,2,3,4\n1,1,2,3,NaN\n"));
+    let message = file.message(&two_joints());
+    assert!(message.contains("row 2, column j2.effort: found NaN"), "{message}");
+}
+
+#[test]
 fn no_time_column() {
     let file = Scratch::new("run.csv", "Time,j1.position,j1.effort\n");
     assert_eq!(

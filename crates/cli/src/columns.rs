@@ -217,7 +217,9 @@ impl Reader<'_> {
         };
         let is_named = matches!(
             error,
-            LogError::JointAbsent { .. } | LogError::File(FormatError::NoColumn { .. })
+            LogError::JointAbsent { .. }
+                | LogError::EffortAbsent { .. }
+                | LogError::File(FormatError::NoColumn { .. })
         );
         if self.map.is_some() || !is_named {
             return Err(error.into());

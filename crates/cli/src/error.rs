@@ -192,6 +192,8 @@ const KINDS_OF_FILES: &str =
 const LEFT_OUT: &str =
     "takes the joints that the log has, the others are locked at zero or as a robot.toml says";
 
+const WITHOUT_EFFORT: &str = "takes the joints that have one; the others count as locked at zero or as a robot.toml says, which is right where they stood";
+
 const MAP: &str = "a column map (--map) says where a file with other names has its signals, --effort picks the effort column";
 
 /// What to do about a log.
@@ -283,6 +285,9 @@ impl CliError {
         match self.log() {
             Some(LogError::JointAbsent { shared, .. }) if !shared.is_empty() => {
                 Some(Cow::Owned(format!("--joints {} {LEFT_OUT}; {MAP}", shared.join(","))))
+            }
+            Some(LogError::EffortAbsent { others, .. }) => {
+                Some(Cow::Owned(format!("--joints {} {WITHOUT_EFFORT}; {MAP}", others.join(","))))
             }
             _ => self.advice().map(Cow::Borrowed),
         }

@@ -47,6 +47,18 @@ pub enum LogError {
         /// The joint of the log with the most similar name, among those that are not in the robot.
         nearest: Option<String>,
     },
+    /// A joint has positions and no effort, which others have.
+    #[error("{}: joint {joint} has no effort: {what}", path.display())]
+    EffortAbsent {
+        /// The file.
+        path: PathBuf,
+        /// The joint.
+        joint: String,
+        /// What is known of its column.
+        what: Box<str>,
+        /// The joints that have an effort.
+        others: Box<[String]>,
+    },
     /// There are too few rows.
     #[error("{}: {found} rows of data, at least {expected} were expected", path.display())]
     TooFewRows {

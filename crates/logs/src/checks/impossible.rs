@@ -11,7 +11,7 @@ use crate::{
 
 /// A step is out of reach above this many usual steps. The usual step is the largest of all but one in fifty.
 const USUAL_STEPS: f64 = 20.0;
-const USUAL_SHARE: f64 = 0.98;
+pub(crate) const USUAL_SHARE: f64 = 0.98;
 
 /// Least step that is out of reach (rad, and m at a sliding joint): coarse encoders and short motions stay below it.
 const LEAST: [f64; 2] = [0.5, 0.1];
@@ -26,7 +26,7 @@ const FARTHEST: f64 = 1e4;
 const NOWHERE: f64 = 1e6;
 
 /// Fewest rows from which the usual step is known.
-const FEWEST: usize = 20;
+pub(crate) const FEWEST: usize = 20;
 
 /// How many rows may be left out: one in a hundred, and three of a short log.
 pub(crate) fn most_left_out(rows: usize) -> usize {
@@ -213,7 +213,7 @@ fn of_size(joint: &Joint, channel: Channel, x: &[f64]) -> Vec<Impossible> {
 }
 
 /// The value that a share of all values does not exceed; 0 without values.
-fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
+pub(crate) fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
     let at = (share * values.len().saturating_sub(1) as f64) as usize;
     if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(at, f64::total_cmp).1 }
 }

@@ -89,9 +89,19 @@ impl<'a> Finder<'_, 'a> {
                 channel.suffix(),
                 self.other_effort(joint, channel)
             );
-            // A column of another joint is no misspelling of this one's.
-            let nearest = nearest(&column, self.names.iter().filter(own).map(String::as_str));
+            // A column of another joint, or of another of its signals, is no misspelling of this one.
+            let is_other = |name: &&String| {
+                Channel::ALL.iter().any(|c| **name == format!("{joint}.{}", c.suffix()))
+            };
+            let like = self.names.iter().filter(own).filter(|name| !is_other(name));
+            let nearest = nearest(&column, like.map(String::as_str));
             let path = self.path.to_owned();
+            let others = self.joints_with_effort(robot);
+            if channel == Channel::Effort && nearest.is_none() && !others.is_empty() {
+                let hint = self.other_effort(joint, channel);
+                let what = format!("there is no column {column}{hint}").into();
+                return LogError::EffortAbsent { path, joint: joint.to_owned(), what, others };
+            }
             return FormatError::NoColumn { path, column, purpose, nearest }.into();
         }
         let found: Box<[String]> = self
@@ -113,6 +123,12 @@ impl<'a> Finder<'_, 'a> {
             found,
             nearest,
         }
+    }
+
+    /// The joints of the robot whose effort has a column.
+    fn joints_with_effort(&self, robot: &Robot) -> Box<[String]> {
+        let has = |joint: &&str| self.names.contains(&self.source(joint, Channel::Effort).column);
+        robot.joint_names().filter(has).map(str::to_owned).collect()
     }
 
     fn no_names(&self) -> LogError {

@@ -9,6 +9,7 @@ use crate::{
     checks::{
         degrees,
         impossible::{find_impossible, most_left_out},
+        lost_efforts::lost_efforts,
         turns::unwrap_turns,
     },
     error::LogError,
@@ -90,7 +91,18 @@ impl<'a> Plan<'a> {
 
     /// Checks that there are at least two rows, that their numbers are finite and that time increases. A log that
     /// may be damaged is cut off before the first row that fails.
-    pub(crate) fn check(&self, table: &mut Table, damage: &mut Damage) -> Result<(), LogError> {
+    ///
+    /// # Errors
+    ///
+    /// [`LogError::EffortAbsent`] for a joint whose effort is a number in no row, where others have efforts, and the errors of
+    /// such rows.
+    pub(crate) fn check(
+        &self,
+        robot: &Robot,
+        table: &mut Table,
+        damage: &mut Damage,
+    ) -> Result<(), LogError> {
+        self.check_efforts(robot, table)?;
         // Cutting at a number that is not finite may leave an earlier row at which time goes back: one cut a signal at most.
         for _ in 0..=self.sources().count() {
             let Some((sample, error)) = self.first_damage(table) else { break };
@@ -104,6 +116,34 @@ impl<'a> Plan<'a> {
             return Err(LogError::TooFewRows { path: path(), found, expected });
         }
         self.first_damage(table).map_or(Ok(()), |(_, error)| Err(error.into()))
+    }
+
+    /// Checks that the effort of every joint is a number in some row, if that of any joint is.
+    fn check_efforts(&self, robot: &Robot, table: &Table) -> Result<(), LogError> {
+        let effort = |sources: &Vec<(Channel, Source<'a>)>| {
+            let source = sources.iter().find(|(channel, _)| *channel == Channel::Effort)?;
+            let samples = source.1.take(&table.columns);
+            let is_absent = !samples.is_empty() && !samples.iter().any(|x| x.is_finite());
+            Some((source.1.column.clone(), samples.len(), is_absent))
+        };
+        let efforts: Vec<_> = self.joints.iter().map(effort).collect();
+        let joints = || robot.joint_names().zip(&efforts);
+        let has = |(joint, effort): (&str, &Option<(String, usize, bool)>)| {
+            effort.as_ref().is_some_and(|(.., is_absent)| !is_absent).then(|| joint.to_owned())
+        };
+        let others: Box<[String]> = joints().filter_map(has).collect();
+        let absent = joints().find_map(|(joint, effort)| {
+            effort.as_ref().filter(|e| e.2).map(|effort| (joint, effort))
+        });
+        match absent {
+            Some((joint, (column, rows, _))) if !others.is_empty() => Err(LogError::EffortAbsent {
+                path: self.path.clone(),
+                joint: joint.to_owned(),
+                what: format!("column {column} holds no number in {rows} rows").into(),
+                others,
+            }),
+            _ => Ok(()),
+        }
     }
 
     /// The first sample that cannot be used, and why.
@@ -180,7 +220,11 @@ impl<'a> Plan<'a> {
         let mut mended = Vec::new();
         for (link, sources) in robot.links().iter().zip(&self.joints) {
             let (joint, channels) = (&link.joint, self.channels(link, sources, &time, table));
-            for (channel, found) in find_impossible(joint, &time, &channels) {
+            let mut impossible = find_impossible(joint, &time, &channels);
+            if !impossible.iter().any(|(channel, _)| *channel == Channel::Effort) {
+                impossible.push((Channel::Effort, lost_efforts(joint, &channels.effort)));
+            }
+            for (channel, found) in impossible {
                 let Some(first) = found.first() else { continue };
                 let (row, count) = (table.row(first.sample), found.len());
                 let source = sources.iter().find(|(c, _)| *c == channel);

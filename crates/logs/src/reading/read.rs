@@ -137,7 +137,7 @@ fn read_open_log(
     let plan = Plan::new(path, file, robot, options)?;
     let mut table = file.load(&plan.needed_columns(), damage)?;
     plan.check_excerpt(&table)?;
-    plan.check(&mut table, damage)?;
+    plan.check(robot, &mut table, damage)?;
 
     let mut mended = plan.leave_out_impossible(robot, &mut table)?;
 

@@ -1,0 +1,154 @@
+//! Efforts that another writer left between those of a joint: zeros of lost messages, and single spikes.
+
+use robot::Joint;
+
+use crate::checks::impossible::{FEWEST, Impossible, USUAL_SHARE, quantile};
+
+/// A zero is lost where the efforts before and after it have one sign and are larger than so many usual steps.
+const LOST_STEPS: f64 = 4.0;
+
+/// Fewest different values of an effort that is measured: a drive that is switched on and off has two or three.
+const FEWEST_VALUES: usize = 10;
+
+/// Longest row of zeros that is lost: after a longer one the drive may have been off.
+const LONGEST: usize = 50;
+
+/// A spike differs from both of its neighbours by so many usual steps, and is so many times as large as usual values.
+const SPIKE_STEPS: f64 = 50.0;
+const SPIKE_SIZE: f64 = 3.0;
+
+/// Samples of an effort that are no efforts of the joint. The usual step is the largest of all but one in fifty.
+///
+/// ```text
+/// zero    x[k] = 0,  x[a] x[b] > 0,  min(|x[a]|, |x[b]|) > 4 usual steps between values other than zero
+/// spike   min(|x[k] - x[k-1]|, |x[k] - x[k+1]|) > 50 usual steps, both of one sign,  |x[k]| > 3 usual sizes
+/// ```
+///
+/// with the last value other than zero before and the first after it, at `a` and `b`.
+pub(crate) fn lost_efforts(joint: &Joint, x: &[f64]) -> Vec<Impossible> {
+    if x.len() < FEWEST {
+        return Vec::new();
+    }
+    let mut found = zeros(joint, x);
+    found.extend(spikes(joint, x));
+    found.sort_by_key(|impossible| impossible.sample);
+    found.dedup_by_key(|impossible| impossible.sample);
+    found
+}
+
+fn zeros(joint: &Joint, x: &[f64]) -> Vec<Impossible> {
+    let is_zero = |x: &f64| x.abs() <= 0.0;
+    let kept: Vec<usize> = (0..x.len()).filter(|&k| !is_zero(&x[k])).collect();
+    if kept.len() < FEWEST || kept.len() == x.len() || !has_many_values(&kept, x) {
+        return Vec::new();
+    }
+    let steps = kept.windows(2).map(|k| (x[k[1]] - x[k[0]]).abs()).collect();
+    let least = LOST_STEPS * quantile(steps, USUAL_SHARE);
+    let mut lost = Vec::new();
+    for pair in kept.windows(2) {
+        let (before, after) = (x[pair[0]], x[pair[1]]);
+        let between = pair[0] + 1..pair[1];
+        let is_lost = before * after > 0.0 && before.abs().min(after.abs()) > least;
+        if is_lost && between.len() <= LONGEST {
+            let expectation = format!(
+                "joint {} has {before:.3} before and {after:.3} after it: a lost message or another publisher wrote it",
+                joint.name
+            );
+            let one = |sample| Impossible { sample, expectation: expectation.clone() };
+            lost.extend(between.map(one));
+        }
+    }
+    lost
+}
+
+fn has_many_values(kept: &[usize], x: &[f64]) -> bool {
+    let mut values: Vec<u64> = kept.iter().map(|&k| x[k].to_bits()).collect();
+    values.sort_unstable();
+    values.dedup();
+    values.len() >= FEWEST_VALUES
+}
+
+fn spikes(joint: &Joint, x: &[f64]) -> Vec<Impossible> {
+    let steps = x.windows(2).map(|x| (x[1] - x[0]).abs()).collect();
+    let step = SPIKE_STEPS * quantile(steps, USUAL_SHARE);
+    let usual = quantile(x.iter().map(|x| x.abs()).collect(), USUAL_SHARE);
+    // An effort that hardly ever changes has no usual step: single changes are all it has.
+    if step <= 0.0 {
+        return Vec::new();
+    }
+    let spike = |(k, near): (usize, &[f64])| {
+        let [before, after] = [near[1] - near[0], near[1] - near[2]];
+        let stands_out = before * after > 0.0 && before.abs().min(after.abs()) > step;
+        (stands_out && near[1].abs() > SPIKE_SIZE * usual).then(|| Impossible {
+            sample: k + 1,
+            expectation: format!(
+                "joint {} has {:.3} before and {:.3} after it",
+                joint.name, near[0], near[2]
+            ),
+        })
+    };
+    x.windows(3).enumerate().filter_map(spike).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use robot::Robot;
+
+    use super::*;
+
+    fn lost(x: &[f64]) -> Vec<usize> {
+        let text = r#"<robot name="r"><link name="a"/><link name="b"><inertial><mass value="1"/>
+            <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+            <joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint></robot>"#;
+        let joint = Robot::from_urdf(text).unwrap().links()[0].joint.clone();
+        lost_efforts(&joint, x).iter().map(|impossible| impossible.sample).collect()
+    }
+
+    /// Efforts of a swing with dry friction: they step where the direction changes, and cross zero.
+    fn swing() -> Vec<f64> {
+        let effort = |k: i32| {
+            let angle = 0.02 * f64::from(k);
+            8.0 * angle.sin() + angle.cos().signum() + 0.01 * (1.7 * f64::from(k)).sin()
+        };
+        (0..2000).map(effort).collect()
+    }
+
+    #[test]
+    fn zeros_between_efforts_of_one_sign_are_lost_at_any_share() {
+        assert_eq!(lost(&swing()), [0_usize; 0]);
+        for every in [2, 3, 10, 500] {
+            let mut effort = swing();
+            let zeros: Vec<usize> = (every..effort.len() - 1).step_by(every).collect();
+            zeros.iter().for_each(|&k| effort[k] = 0.0);
+            let found = lost(&effort);
+            assert!(found.iter().all(|k| zeros.contains(k)), "{every}");
+            // Near its zero a true effort may be none.
+            assert!(found.len() * 10 > 7 * zeros.len(), "{} of {}", found.len(), zeros.len());
+        }
+    }
+
+    #[test]
+    fn drives_that_are_switched_and_currents_in_steps_have_none() {
+        let switched: Vec<f64> = (0..1000).map(|k| if k % 7 < 2 { 0.0 } else { 5.0 }).collect();
+        assert_eq!(lost(&switched), [0_usize; 0]);
+        let in_steps: Vec<f64> = swing().iter().map(|x| x.round()).collect();
+        assert_eq!(lost(&in_steps), [0_usize; 0]);
+        let off_and_on: Vec<f64> = swing()
+            .iter()
+            .enumerate()
+            .map(|(k, x)| if (100..400).contains(&k) { 0.0 } else { *x })
+            .collect();
+        assert_eq!(lost(&off_and_on), [0_usize; 0]);
+    }
+
+    #[test]
+    fn a_single_sample_far_from_both_neighbours_is_a_spike() {
+        for size in [60.0, 1000.0, -400.0] {
+            let mut effort = swing();
+            effort[700] = size;
+            assert_eq!(lost(&effort), [700], "{size}");
+            effort[701] = size;
+            assert_eq!(lost(&effort), [0_usize; 0], "{size} in two rows is a blow");
+        }
+    }
+}
