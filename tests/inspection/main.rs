@@ -5,3 +5,4 @@ mod recorded;
 mod spoil;
 mod spoilt;
 mod store;
+mod without_gravity;

@@ -4,7 +4,7 @@ use crate::fit::{Drive, Fitted, ProductSums};
 use crate::log_reading::LogReading;
 use crate::motion_samples::MotionSamples;
 use crate::nominal_torque::NominalTorque;
-use crate::pooled::fit_pooled;
+use crate::pooled::{fit_pooled, own_factor};
 use crate::thresholds::InspectionThresholds;
 
 /// Compares readings of samples with the nominal torque.
@@ -93,15 +93,11 @@ impl<'a> Judge<'a> {
         ReadingFit { reading, before: as_is.shares.clone(), shares, gain }
     }
 
-    /// Efforts without the torque of gravity. Drives have nearly the right constant here, since another one could take
-    /// gravity away as well. `None` where the efforts contain some of it.
+    /// Efforts without the torque of gravity. `None` where the efforts contain some of it, whatever its direction.
+    ///
+    /// Drives have nearly the right constant here, since another one could take gravity away as well.
     pub fn without_gravity(&self) -> Option<ReadingFit> {
-        let pull = self.robot.gravity_in_base();
-        let mut held = vec![0.0; self.inertial.len()];
-        for (unit, g) in self.gravity.iter().zip(pull.iter()) {
-            held.iter_mut().zip(unit).for_each(|(held, unit)| *held += g * unit);
-        }
-        let part = *self.fit_pooled(&self.inertial, &[&held])?.first()?;
+        let part = *self.fit_pooled(&self.inertial, &[&self.held_torque()])?.first()?;
         if part.abs() > self.thresholds.held_gravity {
             return None;
         }
@@ -111,6 +107,44 @@ impl<'a> Judge<'a> {
         let (before, shares) = (shares(&self.whole), shares(&self.inertial));
         let gain = self.gain(&before, &shares);
         Some(ReadingFit { reading: LogReading::WithoutGravity, before, shares, gain })
+    }
+
+    /// Whether the joints tell one by one that gravity is in no effort: two deny it or more, none confirms it, and there is
+    /// none of another direction either.
+    ///
+    /// ```text
+    /// effort - (M qdd + C qd) = p g(q) + drive,   denied: |p| + 2 error < 1/2,   confirmed: p - 2 error > 1/2
+    /// ```
+    ///
+    /// An offset takes most of the torque of gravity where an arm moves little, so that its part says more than what it
+    /// leaves. A counterbalance takes it from one joint.
+    pub fn lacks_gravity_at_joints(&self) -> bool {
+        let t = self.thresholds;
+        let columns = self.gravity.each_ref().map(Vec::as_slice);
+        let of_any_direction = self.fit_pooled(&self.inertial, &columns);
+        let nominal = self.robot.gravity_in_base().norm();
+        let is_turned = of_any_direction.is_some_and(|g| {
+            g.iter().map(|g| g * g).sum::<f64>().sqrt() > t.held_gravity * nominal
+        });
+        let held = self.held_torque();
+        let part = |j| own_factor(&self.samples, &self.inertial, &held, j, t.rows_of_independent);
+        let parts: Vec<[f64; 2]> = (0..self.samples.joints).filter_map(part).collect();
+        let denies = |[part, error]: &&[f64; 2]| {
+            part.abs() < t.held_gravity && part.abs() + 2.0 * error < 0.5
+        };
+        let confirms = |[part, error]: &[f64; 2]| part - 2.0 * error > 0.5;
+        let denying = parts.iter().filter(denies).count();
+        !is_turned && denying >= t.joints_without_gravity && !parts.iter().any(confirms)
+    }
+
+    /// Torque of the described gravity.
+    fn held_torque(&self) -> Vec<f64> {
+        let pull = self.robot.gravity_in_base();
+        let mut held = vec![0.0; self.inertial.len()];
+        for (unit, g) in self.gravity.iter().zip(pull.iter()) {
+            held.iter_mut().zip(unit).for_each(|(held, unit)| *held += g * unit);
+        }
+        held
     }
 
     /// Nominal torque with another acceleration of free fall.

@@ -1,7 +1,8 @@
 use std::f64::consts::PI;
 
+use dynamics::Dynamics;
 use logs::{Channels, Run};
-use robot::Robot;
+use robot::{Actuator, Robot};
 
 use crate::inspect::inspect_with;
 use crate::observation::{Observation, ObservationKind, Rival, Spoils};
@@ -19,7 +20,7 @@ pub struct CorrectedLogs {
 }
 
 /// Corrects errors that spoil whole logs and have one possible correction: a turned sign, exchanged columns, a unit that is
-/// a power of ten off, degrees.
+/// a power of ten off, degrees, efforts that lack the torque of gravity.
 ///
 /// Logs that are still spoilt after the corrections stay as they are: these errors were not the cause then.
 pub fn correct(robot: &Robot, runs: &[Run]) -> CorrectedLogs {
@@ -34,7 +35,7 @@ pub fn correct_with(robot: &Robot, runs: &[Run], t: &InspectionThresholds) -> Co
         return as_they_stand(seen);
     }
     let mut read = runs.to_vec();
-    let is_mended = |o: &&Observation| o.spoils_whole_logs() && o.mend(&mut read, t);
+    let is_mended = |o: &&Observation| o.spoils_whole_logs() && o.mend(robot, &mut read, t);
     let mended: Vec<Observation> = seen.iter().filter(is_mended).cloned().collect();
     if mended.is_empty() {
         return as_they_stand(seen);
@@ -63,7 +64,7 @@ impl Observation {
     }
 
     /// Corrects the runs, if there is one possible correction; whether there is.
-    fn mend(&self, runs: &mut [Run], t: &InspectionThresholds) -> bool {
+    fn mend(&self, robot: &Robot, runs: &mut [Run], t: &InspectionThresholds) -> bool {
         use ObservationKind as K;
         if !self.or.iter().all(|rival| self.is_same_unit(rival, t)) {
             return false;
@@ -84,9 +85,37 @@ impl Observation {
             (K::EffortsExchanged, &[a, b]) => {
                 runs.iter_mut().for_each(|run| exchange_efforts(run, a, b));
             }
+            // One joint may as well be balanced.
+            (K::EffortWithoutGravity, &[_, _, ..]) => {
+                runs.iter_mut().for_each(|run| add_gravity(robot, run));
+            }
             _ => return false,
         }
         true
+    }
+}
+
+/// Adds the torque of gravity to efforts that lack it, with the described drives:
+///
+/// ```text
+/// effort += ratio gain g(q),   q = ratio (q_log - offset)
+/// ```
+///
+/// The masses of the description are then in the efforts whatever the arm weighs.
+fn add_gravity(robot: &Robot, run: &mut Run) {
+    let dynamics = Dynamics::new(robot);
+    let mut workspace = dynamics.workspace();
+    let drives: Vec<&Actuator> = robot.links().iter().map(|link| &link.actuator).collect();
+    let (mut q, mut tau) = (vec![0.0; drives.len()], vec![0.0; drives.len()]);
+    let still = vec![0.0; drives.len()];
+    for t in 0..run.time.len() {
+        for ((q, drive), joint) in q.iter_mut().zip(&drives).zip(&run.joints) {
+            *q = drive.transmission_ratio * (joint.position[t] - drive.encoder_offset);
+        }
+        dynamics.inverse_dynamics_into(&mut workspace, &q, &still, &still, &mut tau);
+        for ((joint, drive), tau) in run.joints.iter_mut().zip(&drives).zip(&tau) {
+            joint.effort[t] += drive.transmission_ratio * drive.torque_gain * tau;
+        }
     }
 }
 
@@ -170,6 +199,18 @@ mod tests {
             assert_eq!(read.joints[0].position, run.joints[0].position);
             assert_eq!(read.joints[0].effort, run.joints[0].effort);
         }
+    }
+
+    /// A pendulum whose gravity torque is `m g l sin(q)`, with `m g l` = 9.81 N m.
+    #[test]
+    fn efforts_without_gravity_get_that_of_the_description() {
+        let whole = swing(0.3);
+        let mut run = whole.clone();
+        let Channels { effort, position, .. } = &mut run.joints[0];
+        effort.iter_mut().zip(&*position).for_each(|(e, q)| *e -= 9.81 * q.sin());
+        add_gravity(&pendulum(), &mut run);
+        let efforts = run.joints[0].effort.iter().zip(&whole.joints[0].effort);
+        assert!(efforts.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) < 1e-9);
     }
 
     /// 1.25 is no unit: how much of it is the clock's is not known.

@@ -44,6 +44,31 @@ pub(crate) fn fit_pooled(
     found
 }
 
+/// The factor of a column at one joint, with its standard error, where one sample in `rows_of_independent` is independent:
+///
+/// ```text
+/// effort - granted = x column + offset + f direction + b qd + i qdd
+/// ```
+///
+/// `None` for a joint whose effort or column is constant.
+pub(crate) fn own_factor(
+    samples: &MotionSamples,
+    granted: &[f64],
+    column: &[f64],
+    j: usize,
+    rows_of_independent: f64,
+) -> Option<[f64; 2]> {
+    let Projected { gram, right, target, .. } = Projected::of(samples, granted, &[column], j)?;
+    let (gram, right) = (gram[(0, 0)], right[0]);
+    let rows = samples.column(&samples.effort, j).len() as f64;
+    let independent = rows / rows_of_independent;
+    (gram > 0.0 && independent > 1.0).then(|| {
+        let factor = right / gram;
+        let left = (target - factor * right).max(0.0);
+        [factor, (left / (gram * independent)).sqrt()]
+    })
+}
+
 /// Sums of a joint, orthogonal to the columns of its drive.
 struct Projected {
     gram: DMatrix<f64>,

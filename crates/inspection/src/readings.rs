@@ -28,7 +28,15 @@ fn best(judge: &mut Judge, as_is: &ReadingFit) -> Option<(ReadingFit, Vec<Readin
     let mut judged: Vec<ReadingFit> =
         candidates.into_iter().map(|reading| judge.judge_reading(reading, as_is)).collect();
     let without = judge.without_gravity();
-    judged.extend(without.filter(|without| improves(judge, without)));
+    if let Some(without) = without {
+        if judge.lacks_gravity_at_joints() {
+            judged.retain(|j| j.gain > without.gain && improves(judge, j));
+            if judged.is_empty() {
+                return Some((without, judged));
+            }
+        }
+        judged.extend(Some(without).filter(|without| improves(judge, without)));
+    }
     judged.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     let best = judged.first()?.clone();
     if !improves(judge, &best) {
@@ -55,9 +63,11 @@ fn improves(judge: &Judge, read: &ReadingFit) -> bool {
     };
     let n = read.shares.len();
     let confirming = (0..n).filter(|j| ratio(*j) > t.confirms).count();
-    if read.reading.is_of_whole_arm()
-        && confirming < n.div_ceil(t.joints_of_confirming).min(t.most_confirming)
-    {
+    let wanted = match read.reading {
+        LogReading::WithoutGravity => t.joints_without_gravity.min(n),
+        _ => n.div_ceil(t.joints_of_confirming).min(t.most_confirming),
+    };
+    if read.reading.is_of_whole_arm() && confirming < wanted {
         return false;
     }
     // Each of two exchanged columns must fit at its new joint.

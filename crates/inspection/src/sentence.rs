@@ -213,7 +213,7 @@ fn remedy(kind: ObservationKind) -> &'static str {
         K::JointsExchanged | K::EffortsExchanged => "Put the columns under the right names.",
         K::EffortUnit { .. } => "State the unit in the column map.",
         K::EffortWithoutGravity => {
-            "Log the whole torque, or add the controller's gravity torque to the effort."
+            "Log the whole torque, or add the controller's gravity torque to the effort: without it, nothing at rest tells a mass."
         }
         K::GravityDirection { .. } | K::GravityValue { .. } => {
             "State how the base is mounted: `gravity` in robot.toml."

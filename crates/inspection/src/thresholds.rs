@@ -29,6 +29,11 @@ pub struct InspectionThresholds {
     pub gravity_factor: f64,
     /// Largest part of the nominal torque of gravity in efforts that lack it (1).
     pub held_gravity: f64,
+    /// Fewest joints that tell by themselves that efforts lack gravity: a counterbalance takes it from one.
+    pub joints_without_gravity: usize,
+    /// Rows that one independent sample stands for, in tests of single joints (1): rows follow one another closely, and what a
+    /// model lacks changes slowly.
+    pub rows_of_independent: f64,
     /// Least range of a joint that moves (rad, and m at a sliding joint).
     pub moves: [f64; 2],
     /// Difference between factors of all joints, as a share, up to which they have one reason (1).
@@ -156,6 +161,8 @@ impl Default for InspectionThresholds {
             gravity_angle: 0.7,
             gravity_factor: 1.6,
             held_gravity: 0.2,
+            joints_without_gravity: 2,
+            rows_of_independent: 20.0,
             moves: [0.02, 0.005],
             alike: 0.15,
             velocity_factor: 0.04,
