@@ -1,9 +1,14 @@
 //! Logs as users bring them: what each kind of log is, seen through the files of a trial.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::fs::File;
+use std::path::{Path, PathBuf};
 
+use arrow_array::RecordBatch;
+use arrow_array::cast::AsArray;
+use arrow_array::types::Float64Type;
 use logs::{ReadOptions, Run, read_run};
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use population::{
     ArmClass, LogDamageSpec, LogKind, LogKindSpec, PopulationSpec, ServoShareSpec, TruthSheet,
     damage_logs, make,
@@ -45,10 +50,13 @@ impl Made {
         Robot::load(&self.folder.path().join("nominal/robot.toml")).unwrap()
     }
 
+    fn log(&self, k: usize) -> PathBuf {
+        self.folder.path().join(format!("logs/log_{k}.parquet"))
+    }
+
     fn runs(&self, robot: &Robot) -> Vec<Run> {
-        let logs = self.folder.path().join("logs");
-        let read = |name| read_run(&logs.join(name), robot, &ReadOptions::default()).unwrap();
-        (1..=self.sheet.corner.logs).map(|k| format!("log_{k}.parquet")).map(read).collect()
+        let read = |k| read_run(&self.log(k), robot, &ReadOptions::default()).unwrap();
+        (1..=self.sheet.corner.logs).map(read).collect()
     }
 }
 
@@ -101,13 +109,15 @@ fn a_spoilt_log_is_told_in_the_sheet_with_its_joints_and_size() {
     assert!(spoiling.readable && spoiling.joints.len() == 1);
     assert_eq!(stranger.joint.as_ref(), spoiling.joints.first());
     let robot = made.nominal().robot;
-    let joint = robot.joint_index(&spoiling.joints[0]).unwrap();
-    for run in made.runs(&robot) {
-        let zeros = |j: usize| run.joints[j].effort.iter().filter(|tau| tau.abs() <= 0.0).count();
-        let rows = run.time.len() as f64;
+    for log in (1..=made.sheet.corner.logs).map(|k| made.log(k)) {
+        let effort = column(&log, &spoiling.joints[0], "effort");
+        let (zeros, rows) = (zeros(&effort).len() as f64, effort.len() as f64);
         // Four deviations of a binomial count.
         let far = 4.0 * (0.16 * rows).sqrt();
-        assert!((zeros(joint) as f64 - 0.2 * rows).abs() < far, "{} zeros", zeros(joint));
+        assert!((zeros - 0.2 * rows).abs() < far, "{zeros} zeros");
+        // The reader finds them between efforts of one sign.
+        let refused = read_run(&log, &robot, &ReadOptions::default()).unwrap_err().to_string();
+        assert!(refused.contains("found 0, but joint"), "{refused}");
     }
 }
 
@@ -158,25 +168,32 @@ fn logs_are_spoilt_by_a_share_after_they_are_made() {
     let damage = |size: f64| {
         let spec = LogDamageSpec { kind: LogKind::EffortZeros, size, seed: 1 };
         damage_logs(made.folder.path(), &spec, to.path()).unwrap().unwrap();
-        read(&to.path().join("logs/log_1.parquet"), &made.nominal().robot)
-    };
-    let [few, many] = [0.1, 0.5].map(damage);
-    let zeros = |run: &Run| -> Vec<Vec<usize>> {
-        let of = |joint: &logs::Channels| {
-            let rows = joint.effort.iter().enumerate().filter(|(_, tau)| tau.abs() <= 0.0);
-            rows.map(|(row, _)| row).collect()
+        let log = to.path().join("logs/log_1.parquet");
+        let of = |signal: &str| -> Vec<Vec<f64>> {
+            let robot = made.nominal().robot;
+            robot.joint_names().map(|joint| column(&log, joint, signal)).collect()
         };
-        run.joints.iter().map(of).collect()
+        [of("effort"), of("position")]
     };
-    for (few, many) in zeros(&few).iter().zip(zeros(&many)) {
-        assert!(few.iter().all(|row| many.contains(row)));
+    let [[few, positions], [many, same]] = [0.1, 0.5].map(damage);
+    for (few, many) in few.iter().zip(&many) {
+        let many = zeros(many);
+        assert!(zeros(few).iter().all(|row| many.contains(row)));
     }
-    let positions = |run: &Run| -> Vec<Vec<f64>> {
-        run.joints.iter().map(|joint| joint.position.clone()).collect()
-    };
-    assert_eq!(positions(&few), positions(&many));
+    assert_eq!(positions, same);
 }
 
-fn read(path: &Path, robot: &Robot) -> Run {
-    read_run(path, robot, &ReadOptions::default()).unwrap()
+/// The rows in which a signal is zero.
+fn zeros(signal: &[f64]) -> Vec<usize> {
+    (0..signal.len()).filter(|&row| signal[row].abs() <= 0.0).collect()
+}
+
+/// A column of a log as it stands in the file.
+fn column(log: &Path, joint: &str, signal: &str) -> Vec<f64> {
+    let builder = ParquetRecordBatchReaderBuilder::try_new(File::open(log).unwrap()).unwrap();
+    let name = format!("{joint}.{signal}");
+    let of_batch = |batch: RecordBatch| -> Vec<f64> {
+        batch.column_by_name(&name).unwrap().as_primitive::<Float64Type>().values().to_vec()
+    };
+    builder.build().unwrap().flat_map(|batch| of_batch(batch.unwrap())).collect()
 }
