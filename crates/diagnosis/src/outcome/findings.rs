@@ -37,10 +37,10 @@ impl Inputs<'_> {
         let last = fitted.last_fit(self.first_fit(problem, model, fitted));
         let design = self.design_about(problem, fitted)?;
         let grams = Grams::new(&design, problem.blocks);
-        let unnamed = &problem.about(&design, &grams);
+        let repaired = &problem.about(&design, &grams);
         let same = |g: &usize| design.find(problem.design.groups[*g].hypothesis);
-        let selection = Selection { problem: unnamed, robot: &fitted.robot, ..*selection };
-        let unnamed = Unnamed::new(&selection, &model.iter().filter_map(same).collect());
+        let about = Selection { problem: repaired, robot: &fitted.robot, ..*selection };
+        let unnamed = Unnamed::new(&about, &model.iter().filter_map(same).collect());
         let found = unnamed.map_or_else(Vec::new, |unnamed| builder.findings(&last, &unnamed));
         let unseen_friction = builder.unseen_friction();
         Ok(Findings { found, ruled_out: builder.rule_out_others(), unseen_friction })

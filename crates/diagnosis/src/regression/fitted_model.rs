@@ -152,10 +152,8 @@ impl FittedModel {
         let Some(Refit { about, design, grams, model, weights, .. }) = &self.refit else {
             return first;
         };
-        let whole = &first.problem;
-        let (blocks, weight, thresholds) = (whole.blocks, whole.weight.clone(), whole.thresholds);
-        let problem = Problem::new(design, blocks, grams, &whole.of, weight, thresholds);
-        LinearFit { problem: Cow::Owned(problem), model, weights, about, nominal: first.nominal }
+        let problem = Cow::Owned(first.problem.about(design, grams));
+        LinearFit { problem, model, weights, about, nominal: first.nominal }
     }
 }
 

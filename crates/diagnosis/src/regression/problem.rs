@@ -83,7 +83,10 @@ impl<'a> Problem<'a> {
     }
 
     /// The same blocks and weights in a design about another robot.
-    pub fn about<'b>(&'b self, design: &'b Design, grams: &'b Grams) -> Problem<'b> {
+    pub fn about<'b>(&self, design: &'b Design, grams: &'b Grams) -> Problem<'b>
+    where
+        'a: 'b,
+    {
         let weight = self.weight.clone();
         Problem::new(design, self.blocks, grams, &self.of, weight, self.thresholds)
     }

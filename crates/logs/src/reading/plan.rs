@@ -120,28 +120,23 @@ impl<'a> Plan<'a> {
 
     /// Checks that the effort of every joint is a number in some row, if that of any joint is.
     fn check_efforts(&self, robot: &Robot, table: &Table) -> Result<(), LogError> {
-        let effort = |sources: &Vec<(Channel, Source<'a>)>| {
-            let source = sources.iter().find(|(channel, _)| *channel == Channel::Effort)?;
-            let samples = source.1.take(&table.columns);
-            let is_absent = !samples.is_empty() && !samples.iter().any(|x| x.is_finite());
-            Some((source.1.column.clone(), samples.len(), is_absent))
-        };
-        let efforts: Vec<_> = self.joints.iter().map(effort).collect();
-        let joints = || robot.joint_names().zip(&efforts);
-        let has = |(joint, effort): (&str, &Option<(String, usize, bool)>)| {
-            effort.as_ref().is_some_and(|(.., is_absent)| !is_absent).then(|| joint.to_owned())
-        };
-        let others: Box<[String]> = joints().filter_map(has).collect();
-        let absent = joints().find_map(|(joint, effort)| {
-            effort.as_ref().filter(|e| e.2).map(|effort| (joint, effort))
-        });
+        let (mut others, mut absent) = (Vec::new(), None);
+        for (joint, sources) in robot.joint_names().zip(&self.joints) {
+            let column = sources.iter().find(|(channel, _)| *channel == Channel::Effort);
+            let Some((_, Source { column, .. })) = column else { continue };
+            let samples = table.columns.get(column).map(Vec::as_slice).unwrap_or_default();
+            if samples.is_empty() || samples.iter().any(|x| x.is_finite()) {
+                others.push(joint.to_owned());
+            } else if absent.is_none() {
+                let what = format!("column {column} holds no number in {} rows", samples.len());
+                absent = Some((joint.to_owned(), what.into()));
+            }
+        }
         match absent {
-            Some((joint, (column, rows, _))) if !others.is_empty() => Err(LogError::EffortAbsent {
-                path: self.path.clone(),
-                joint: joint.to_owned(),
-                what: format!("column {column} holds no number in {rows} rows").into(),
-                others,
-            }),
+            Some((joint, what)) if !others.is_empty() => {
+                let (path, others) = (self.path.clone(), others.into());
+                Err(LogError::EffortAbsent { path, joint, what, others })
+            }
             _ => Ok(()),
         }
     }
@@ -221,7 +216,9 @@ impl<'a> Plan<'a> {
         for (link, sources) in robot.links().iter().zip(&self.joints) {
             let (joint, channels) = (&link.joint, self.channels(link, sources, &time, table));
             let mut impossible = find_impossible(joint, &time, &channels);
-            if !impossible.iter().any(|(channel, _)| *channel == Channel::Effort) {
+            let is_told = impossible.iter().any(|(channel, _)| *channel == Channel::Effort);
+            // Efforts that are computed from goals are in no message.
+            if !is_told && !self.is_effort_computed {
                 impossible.push((Channel::Effort, lost_efforts(joint, &channels.effort)));
             }
             for (channel, found) in impossible {
