@@ -93,7 +93,7 @@ impl<'a> Judge<'a> {
         ReadingFit { reading, before: as_is.shares.clone(), shares, gain }
     }
 
-    /// Efforts without the torque of gravity. `None` where the efforts contain some of it, whatever its direction.
+    /// Efforts without the torque of gravity. `None` where the efforts contain some of the described one.
     ///
     /// Drives have nearly the right constant here, since another one could take gravity away as well.
     pub fn without_gravity(&self) -> Option<ReadingFit> {

@@ -18,7 +18,7 @@ pub struct SignalThresholds {
     /// Largest shift in time between two runs of one motion (s).
     pub repeat_shift_s: f64,
     /// Least likeness of the spectra of two runs that move at the same frequencies (1): parts of a motion of one sine a
-    /// joint have .988, motions that repeat .96 and more, all others at most .952 (60 trials of the panel).
+    /// joint have .988, motions that repeat .96 and more, all others at most .952 (docs/lab/2026-11-29-panel.md).
     pub one_spectrum: f64,
 }
 
