@@ -105,6 +105,22 @@ fn one_effort_of_no_drive_is_left_out() {
     assert!(words(&answer).contains("column elbow.effort, row 3001"), "{}", answer.out);
 }
 
+/// Zeros of lost messages: one row in two hundred is left out, every other row is refused with the way out.
+#[test]
+fn zeros_of_lost_messages_are_left_out_where_they_are_few_and_refused_where_they_are_many() {
+    let few = folder(EFFORT, |row, tau| if row % 200 == 0 { 0.0 } else { tau });
+    let answer = diagnose(few.path());
+    assert_eq!(answer.code, 0, "{}{}", answer.out, answer.err);
+    let told = words(&answer);
+    assert!(told.contains("a lost message or another publisher wrote it"), "{told}");
+    assert!(told.contains("FR02 Coulomb friction") && !told.contains("DR02"), "{told}");
+    let many = folder(EFFORT, |row, tau| if row % 2 == 0 { 0.0 } else { tau });
+    let answer = diagnose(many.path());
+    assert_eq!((answer.code, answer.out.as_str()), (3, ""));
+    assert!(answer.err.contains("changed.csv: column elbow.effort, row"), "{}", answer.err);
+    assert!(answer.err.contains("take these rows out of the file"), "{}", answer.err);
+}
+
 #[test]
 fn many_are_refused_with_the_first_and_their_number() {
     let folder = folder(POSITION, |row, q| if row % 7 == 0 && row > 1000 { 1000.0 } else { q });

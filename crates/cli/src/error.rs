@@ -211,6 +211,9 @@ fn of_log(log: &LogError) -> Option<&'static str> {
         LogError::LooksLikeDegrees { .. } => {
             Some("in the column map: position = { column = \"...\", unit = \"deg\" }")
         }
+        LogError::Impossible { .. } => {
+            Some("take these rows out of the file, or record without what wrote them")
+        }
         LogError::CutoffOutOfRange { .. } => {
             Some("leave --cutoff-hz out and the cut-off is chosen from the data")
         }
