@@ -41,15 +41,21 @@ impl ToneSearch<'_> {
     ///
     /// The search for tones is repeated with the tones of the first search removed. Without them, other effects take
     /// the place of their cause, which hides some of the tones.
+    ///
+    /// Where the first search leaves no tone, those in the efforts that the robot as described leaves are removed: a
+    /// wrong cause that took their place hides them. They are tones only if the second search leaves them as well;
+    /// friction of a motion that repeats has lines too.
     pub fn find_tones(&self, runs: &[Run]) -> Result<(Oscillations, ShapedDesign), DiagnosisError> {
         let Self { nominal, about, settings, log, inadequate } = *self;
         let mut shaped = ShapedDesign::new(about, &log)?;
         let mut found = Oscillations::default();
+        let mut candidates = Candidates::AlsoOfDescription;
         for _ in 0..settings.thresholds.tones.searches {
             let log = Log { tones: &found.tones, ..log };
             let ShapedDesign { robot, design } = &shaped;
-            let now =
-                tones_left_by(&Inputs { nominal, robot, settings, log, design, inadequate }, runs)?;
+            let inputs = Inputs { nominal, robot, settings, log, design, inadequate };
+            let now = tones_left_by(&inputs, runs, candidates)?;
+            candidates = Candidates::OfSearch;
             let has_none = now.tones.is_empty() && found.tones.is_empty();
             found = now;
             if has_none {
@@ -61,9 +67,21 @@ impl ToneSearch<'_> {
     }
 }
 
-/// The oscillations in the residual efforts of a search, in a band much wider than that of the motion. Where there are
-/// none, those in the efforts that the robot as described leaves: a wrong cause that took the place of a tone hides it.
-fn tones_left_by(inputs: &Inputs, runs: &[Run]) -> Result<Oscillations, DiagnosisError> {
+/// The residual efforts in which tones are looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Candidates {
+    /// Those of a search.
+    OfSearch,
+    /// Those of a search; where they have no tone, those of the robot as described.
+    AlsoOfDescription,
+}
+
+/// The oscillations in the residual efforts, in a band much wider than that of the motion.
+fn tones_left_by(
+    inputs: &Inputs,
+    runs: &[Run],
+    candidates: Candidates,
+) -> Result<Oscillations, DiagnosisError> {
     let (prepared, settings) = (inputs.log.prepared, inputs.settings);
     let t = &settings.thresholds.tones;
     let slowest = prepared.runs.iter().map(|r| r.rate_hz).fold(f64::INFINITY, f64::min);
@@ -88,7 +106,8 @@ fn tones_left_by(inputs: &Inputs, runs: &[Run]) -> Result<Oscillations, Diagnosi
     let (practical, open_share) = (&inputs.practical(), settings.open_share);
     let question = ToneQuestion { slowest_hz, practical, open_share };
     let mut found = tones([&extended, inputs.nominal], &wide, &inputs.log, &question)?;
-    if found.tones.is_empty() && extended != *inputs.nominal {
+    let looks_further = candidates == Candidates::AlsoOfDescription && found.tones.is_empty();
+    if looks_further && extended != *inputs.nominal {
         let described = tones([inputs.nominal; 2], &wide, &inputs.log, &question)?;
         found.tones =
             described.tones.into_iter().filter(|tone| !found.is_in_a_band(tone)).collect();
