@@ -14,6 +14,7 @@ use checks::arms::workspace_root;
 use diagnosis::{EffectAt, Settings, Silent, Verdict};
 use experiment::{Blinded, Score, Size};
 use logs::{ReadOptions, Run, read_run};
+use rayon::prelude::*;
 use robot::Robot;
 
 use EffectKind as E;
@@ -292,17 +293,19 @@ fn hidden_slow_disturbances_are_told_from_the_motion() {
 /// friction has a part in it, be it in the band of the motion or far above.
 #[test]
 fn hidden_tones_are_whole() {
+    let kinds = [E::TorqueRipple, E::ExternalDisturbance];
+    let trials: Vec<_> =
+        kinds.into_iter().flat_map(|kind| [15, 16, 17, 18].map(|seed| (kind, seed))).collect();
+    let score = |(kind, seed)| score_along(Hidden::One(kind), seed, LIVELY);
+    let all: Vec<Score> = trials.into_par_iter().map(score).collect();
     let (mut intervals, mut hold) = (0, 0);
-    for kind in [E::TorqueRipple, E::ExternalDisturbance] {
-        for seed in [15, 16, 17, 18] {
-            let found = score_along(Hidden::One(kind), seed, LIVELY);
-            assert!(found.exactly && found.stray.is_empty(), "{}", found.words());
-            let sizes = found.injected[0].sizes.iter();
-            for (size, estimate) in sizes.filter_map(|s| s.estimate.as_ref().map(|e| (s, e))) {
-                println!("  {} {:.5}: {:?}", size.name, size.truth, estimate.noise95);
-                intervals += 1;
-                hold += usize::from(is_held(size));
-            }
+    for found in &all {
+        assert!(found.exactly && found.stray.is_empty(), "{}", found.words());
+        let sizes = found.injected[0].sizes.iter();
+        for (size, estimate) in sizes.filter_map(|s| s.estimate.as_ref().map(|e| (s, e))) {
+            println!("  {} {:.5}: {:?}", size.name, size.truth, estimate.noise95);
+            intervals += 1;
+            hold += usize::from(is_held(size));
         }
     }
     // Of 24 that hold with probability 0.95 fewer than 20 do with 0.006.
