@@ -3,18 +3,24 @@
 use checks::synthetic::{Noise, Truth, log, run, wam};
 use diagnosis::{Settings, Silent, Verdict, diagnose};
 use logs::Run;
+use robot::Robot;
 
 use crate::world::named;
+
+/// Three runs of 20 s of the arm as it is described.
+fn logs_of_20_s(robot: &Robot, seed: u64) -> Vec<Run> {
+    let of = |k| run(&Truth::of(robot), &Noise::of_a_wam(), 20.0, 10 * seed + k);
+    (0..3).map(of).collect()
+}
 
 /// A log of the model itself plus noise is called consistent at every joint in at least 95
 /// of 100 seeds.
 #[test]
 fn same_model_logs_are_consistent_at_every_joint() {
-    let (robot, noise) = (wam(), Noise::of_a_wam());
+    let robot = wam();
     let mut bad = Vec::new();
     for seed in 0..100 {
-        let of = |k: u64| run(&Truth::of(&robot), &noise, 20.0, 10 * seed + k);
-        let runs: Vec<Run> = (0..3_u64).map(of).collect();
+        let runs = logs_of_20_s(&robot, seed);
         let answer = diagnose(&robot, &runs, &Settings::default(), &Silent).unwrap().diagnosis;
         if answer.joints.iter().any(|j| j.verdict != Verdict::Consistent) {
             let findings: Vec<_> = answer.findings.iter().map(|f| f.at.words()).collect();
@@ -50,8 +56,7 @@ fn a_motion_as_fast_as_the_cutoff_is_weakened_alike_on_both_sides() {
     let (robot, noise) = (wam(), Noise::of_a_wam());
     for seed in 200..203 {
         let settings = Settings { cutoff_hz: Some(CUTOFF_HZ), ..Settings::default() };
-        let of = |k: u64| run(&Truth::of(&robot), &noise, 20.0, 10 * seed + k);
-        let runs: Vec<Run> = (0..3_u64).map(of).collect();
+        let runs = logs_of_20_s(&robot, seed);
         let answer = diagnose(&robot, &runs, &settings, &Silent).unwrap();
         assert_eq!(named(&answer.diagnosis), Vec::<String>::new(), "seed {seed}");
         // Of the wrist most is noise.

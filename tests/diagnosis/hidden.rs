@@ -56,7 +56,7 @@ const DWELLING: &Parts = &[
      j5_wrist_yaw=0.06, j6_wrist_pitch=0.06, j7_palm_yaw=0.06 }",
 ];
 
-/// Twice the step that scenarios have by default: half the time of these tests. A leapfrog's error in the acceleration of a
+/// Twice the step that scenarios have by default, for half the steps. A leapfrog's error in the acceleration of a
 /// motion of 1.5 Hz is `(w h)² / 12`, 3e-7 of it.
 const STEP: &str = "engine.step_ms=0.2";
 
