@@ -93,6 +93,7 @@ const NUMERICAL: &[(&str, &str, &str, &str)] = &[
     ("effects", "transmission", "DEPARTURES", "cap of a loop"),
     ("effects", "transmission", "HALVINGS", "iterations of a bisection"),
     ("effects", "transmission", "ROUNDS", "iterations of a fixed point"),
+    ("inspection", "sentence", "MOST_SHARE", "digits of printed numbers"),
     ("inspection", "fit", "COLUMNS", "size of an array"),
     ("inspection", "judge", "NO_EFFORT", "a floor that nothing exceeds"),
     ("inspection", "pooled", "ROUNDS", "iterations of a weighting"),

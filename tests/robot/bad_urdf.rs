@@ -240,6 +240,28 @@ fn a_moving_link_without_inertia_is_massless_with_a_warning() {
     assert_eq!(loaded.warnings, [RobotWarning::Massless { link: "hand".to_owned() }]);
 }
 
+/// The upper link reaches .3 m to the elbow, and its body of 2 kg has a radius of gyration of .1 m: 1e6 times that moment are kg mm².
+#[test]
+fn an_inertia_that_is_wider_than_its_link_is_told_with_its_unit() {
+    let with = |moment: &str| arm_with("").replacen("\"1\"", &format!("\"{moment}\""), 3);
+    assert_eq!(load(&[("a.urdf", &with("0.02"))]).unwrap().warnings, []);
+    let loaded = load(&[("a.urdf", &with("2e4"))]).unwrap();
+    let [RobotWarning::WideInertia(wide)] = &loaded.warnings[..] else { panic!("{loaded:?}") };
+    assert!(
+        (wide.radius_m - 100.0).abs() < 1e-9 && (wide.extent_m - 0.3).abs() < 1e-12,
+        "{wide:?}"
+    );
+    assert_eq!(
+        wide.to_string(),
+        "link upper: a moment of inertia of 2.000e4 kg m² has a radius of gyration of 100.00 m, but the link reaches \
+         0.30 m; the value may be in kg mm², kg m² were expected"
+    );
+    let toml = "urdf = \"a.urdf\"\n[link.upper]\nmass_kg = 2.0\ncom_m = [0.0, 0.0, 0.0]\n\
+                inertia_kg_m2 = { xx = 0.02, xy = 0.0, xz = 0.0, yy = 0.02, yz = 0.0, zz = 0.02 }\n";
+    let mended = load(&[("robot.toml", toml), ("a.urdf", &with("2e4"))]).unwrap();
+    assert_eq!(mended.warnings, []);
+}
+
 #[test]
 fn damping_and_friction_of_the_urdf_become_nominal_friction() {
     let urdf =

@@ -39,6 +39,7 @@ pub(crate) fn another_robot(judge: &Judge, runs: usize) -> Option<Observation> {
     Some(Observation {
         kind: ObservationKind::AnotherRobot,
         or: Vec::new(),
+        units: Vec::new(),
         joints: (0..n).collect(),
         runs: (0..runs).collect(),
         stretches: Vec::new(),

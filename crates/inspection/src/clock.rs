@@ -38,6 +38,7 @@ pub(crate) fn clock(robot: &Robot, judge: &mut Judge, runs: usize) -> Vec<Observ
     let observation = |kind, joints, spoils, or| Observation {
         kind,
         or,
+        units: Vec::new(),
         joints,
         runs: (0..runs).collect(),
         stretches: Vec::new(),

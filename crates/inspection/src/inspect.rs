@@ -8,7 +8,7 @@ use crate::judge::Judge;
 use crate::limits::at_limits;
 use crate::moments::moments;
 use crate::motion_samples::Thinned;
-use crate::observation::Observation;
+use crate::observation::{Observation, ObservationKind, Spoils};
 use crate::overlaps::overlaps;
 use crate::pieces::pieces;
 use crate::readings::readings;
@@ -36,6 +36,10 @@ pub fn inspect_with(
     moments.corrected.iter_mut().for_each(|run| remove_described_effects(robot, run));
     observations.extend(overlaps(runs, thresholds));
     observations.extend(at_limits(robot, runs, thresholds));
+    if let Some(wide) = wide_inertias(robot, runs.len()) {
+        observations.push(wide);
+        return observations;
+    }
     let all = moments.corrected.iter().zip(&moments.left_out);
     let pieces: Vec<_> =
         all.flat_map(|(run, left_out)| pieces(run, left_out, thresholds)).collect();
@@ -58,6 +62,21 @@ pub fn inspect_with(
     }
     observations.extend(errors);
     observations
+}
+
+/// Inertias in another unit, where the description has some: no torque of such a model says anything of logs.
+fn wide_inertias(robot: &Robot, runs: usize) -> Option<Observation> {
+    let is_wide = !robot.wide_inertias().is_empty();
+    is_wide.then(|| Observation {
+        kind: ObservationKind::InertiaUnit,
+        or: Vec::new(),
+        joints: (0..robot.joint_count()).collect(),
+        units: Vec::new(),
+        runs: (0..runs).collect(),
+        stretches: Vec::new(),
+        spoils: Spoils::Everything,
+        evidence: None,
+    })
 }
 
 fn is_whole(robot: &Robot, run: &Run) -> bool {
@@ -95,7 +114,6 @@ fn remove_described_effects(robot: &Robot, run: &mut Run) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::observation::{ObservationKind, Spoils};
     use crate::testing::{pendulum, swing};
 
     fn observe(change: fn(&mut Run)) -> Vec<Observation> {

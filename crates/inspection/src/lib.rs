@@ -3,6 +3,7 @@
 mod another_robot;
 mod clock;
 mod effort_shift;
+mod effort_unit;
 mod fit;
 mod frozen;
 mod inspect;
@@ -29,5 +30,8 @@ mod thresholds;
 
 pub use inspect::{inspect, inspect_with};
 pub use mend::{CorrectedLogs, correct, correct_with};
-pub use observation::{Observation, ObservationKind, ReadingEvidence, Rival, RunStretch, Spoils};
+pub use observation::{
+    CountedTogether, JointUnit, Observation, ObservationKind, ReadingEvidence, Rival, RunStretch,
+    Spoils,
+};
 pub use thresholds::{InspectionThresholds, MomentThresholds};

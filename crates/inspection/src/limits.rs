@@ -30,6 +30,7 @@ pub(crate) fn at_limits(robot: &Robot, runs: &[Run], t: &InspectionThresholds) -
         is_clipped.then(|| Observation {
             kind: ObservationKind::AtLimit { share, limit },
             or: Vec::new(),
+            units: Vec::new(),
             joints: vec![j],
             runs: (0..runs.len()).collect(),
             stretches: Vec::new(),

@@ -3,7 +3,7 @@ use std::f64::consts::PI;
 use nalgebra::Vector3;
 
 use crate::motion_samples::MotionSamples;
-use crate::observation::{ObservationKind, Rival};
+use crate::observation::{CountedTogether, ObservationKind, Rival};
 
 /// A way to read logs other than as they stand.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,14 +16,16 @@ pub(crate) enum LogReading {
     PositionSign(Option<usize>),
     /// The logged position of a joint is so much more than the true one (rad).
     Offset(usize, f64),
+    /// The position of a joint is counted together with that of the joint before it.
+    CountedTogether(CountedTogether),
     /// Two joints have each other's columns.
     Exchanged(usize, usize),
     /// Two joints have each other's effort.
     EffortsExchanged(usize, usize),
     /// The position of a joint, or of all of them, is degrees.
     Degrees(Option<usize>),
-    /// Logged efforts per N m (or N) of each joint.
-    Unit(Vec<f64>),
+    /// Logged efforts per N m (or N) of each joint; `None` where they are in another unit and do not show it.
+    Unit(Vec<Option<f64>>),
     /// The efforts lack the torque of gravity.
     WithoutGravity,
     /// Acceleration of free fall in the base frame (m/s²).
@@ -53,6 +55,13 @@ impl LogReading {
             Self::Offset(j, offset) => {
                 read.motion[0].iter_mut().skip(*j).step_by(n).for_each(|q| *q -= offset);
             }
+            Self::CountedTogether(counted) => {
+                let CountedTogether { joint, with, sign, is_driven } = *counted;
+                read.motion.iter_mut().for_each(|signal| add(signal, n, [with, joint], -sign));
+                if is_driven {
+                    add(&mut read.effort, n, [joint, with], sign);
+                }
+            }
             Self::Exchanged(a, b) => {
                 read.motion.iter_mut().for_each(|signal| exchange(signal, n, *a, *b));
                 exchange(&mut read.effort, n, *a, *b);
@@ -60,7 +69,7 @@ impl LogReading {
             Self::EffortsExchanged(a, b) => exchange(&mut read.effort, n, *a, *b),
             Self::Unit(factors) => {
                 for (j, factor) in factors.iter().enumerate() {
-                    scale(&mut read.effort, Some(j), 1.0 / factor);
+                    scale(&mut read.effort, Some(j), 1.0 / factor.unwrap_or(1.0));
                 }
             }
             Self::Time(factor) => {
@@ -95,7 +104,7 @@ impl LogReading {
             Self::EffortSign(joint) | Self::PositionSign(joint) | Self::Degrees(joint) => {
                 joint.is_none()
             }
-            Self::Unit(factors) => factors.iter().all(|f| (f - 1.0).abs() > 1e-9),
+            Self::Unit(factors) => factors.iter().all(|f| f.is_none_or(is_another_unit)),
             Self::WithoutGravity | Self::Gravity(_) | Self::Time(_) => true,
             _ => false,
         }
@@ -112,14 +121,14 @@ impl LogReading {
             Self::EffortSign(j) => (K::EffortSign, own(j)),
             Self::PositionSign(j) => (K::PositionSign, own(j)),
             Self::Offset(j, offset) => (K::PositionOffset { offset: *offset }, vec![*j]),
+            Self::CountedTogether(counted) => (K::CountedTogether(*counted), vec![counted.joint]),
             Self::Exchanged(a, b) => (K::JointsExchanged, vec![*a, *b]),
             Self::EffortsExchanged(a, b) => (K::EffortsExchanged, vec![*a, *b]),
             Self::Degrees(j) => (K::Degrees, own(j)),
             Self::Unit(factors) => {
-                let off = |f: &f64| (f - 1.0).abs() > 1e-9;
-                let of = |(j, f): (usize, &f64)| off(f).then_some(j);
-                let which: Vec<usize> = factors.iter().enumerate().filter_map(of).collect();
-                let mut those: Vec<f64> = factors.iter().copied().filter(off).collect();
+                let known = factors.iter().enumerate().filter_map(|(j, f)| f.map(|f| (j, f)));
+                let (which, mut those): (Vec<usize>, Vec<f64>) =
+                    known.filter(|(_, f)| is_another_unit(*f)).unzip();
                 those.sort_unstable_by(f64::total_cmp);
                 (K::EffortUnit { factor: *those.get(those.len() / 2)? }, which)
             }
@@ -133,6 +142,18 @@ impl LogReading {
             Self::Time(factor) => (K::TimeUnit { factor: *factor }, all()),
         };
         Some(Rival { kind, joints })
+    }
+}
+
+/// Whether logged efforts per N m (or N) are other than one.
+pub(crate) fn is_another_unit(factor: f64) -> bool {
+    (factor - 1.0).abs() > 1e-9
+}
+
+/// Adds `factor` times the signal of one joint to that of another.
+fn add(signal: &mut [f64], joints: usize, [from, to]: [usize; 2], factor: f64) {
+    for row in signal.chunks_exact_mut(joints) {
+        row[to] += factor * row[from];
     }
 }
 

@@ -5,7 +5,7 @@ use logs::{Channels, Run};
 use robot::{Actuator, Robot};
 
 use crate::inspect::inspect_with;
-use crate::observation::{Observation, ObservationKind, Rival, Spoils};
+use crate::observation::{CountedTogether, Observation, ObservationKind, Spoils};
 use crate::thresholds::InspectionThresholds;
 
 /// Logs with the errors corrected that have one possible correction.
@@ -19,8 +19,8 @@ pub struct CorrectedLogs {
     pub left: Vec<Observation>,
 }
 
-/// Corrects errors that spoil whole logs and have one possible correction: a turned sign, exchanged columns, a unit that is
-/// a power of ten off, degrees, efforts that lack the torque of gravity.
+/// Corrects errors that spoil whole logs and have one possible correction: a turned sign, exchanged columns, another unit,
+/// degrees, efforts that lack the torque of gravity.
 ///
 /// Logs that are still spoilt after the corrections stay as they are: these errors were not the cause then.
 pub fn correct(robot: &Robot, runs: &[Run]) -> CorrectedLogs {
@@ -40,10 +40,11 @@ pub fn correct_with(robot: &Robot, runs: &[Run], t: &InspectionThresholds) -> Co
     if mended.is_empty() {
         return as_they_stand(seen);
     }
-    let left = inspect_with(robot, &read, t);
+    let mut left = inspect_with(robot, &read, t);
     if left.iter().any(Observation::spoils_whole_logs) {
         return as_they_stand(seen);
     }
+    left.extend(mended.iter().filter_map(Observation::unknown_unit));
     CorrectedLogs { runs: Some(read), mended, left }
 }
 
@@ -53,33 +54,43 @@ impl Observation {
         is_of_the_arm && matches!(self.spoils, Spoils::Joints | Spoils::Everything)
     }
 
-    /// Whether a rival is the same unit at the same joints, from another estimate of its factor.
-    fn is_same_unit(&self, rival: &Rival, t: &InspectionThresholds) -> bool {
-        use ObservationKind::EffortUnit;
-        let (EffortUnit { factor: a }, EffortUnit { factor: b }) = (self.kind, rival.kind) else {
-            return false;
-        };
-        self.joints == rival.joints
-            && power_of_ten(a, t.effort_unit) == power_of_ten(b, t.effort_unit)
+    /// The joints whose unit their motion does not show, where those that show it have each their own.
+    fn unknown_unit(&self) -> Option<Self> {
+        let unknown = self.units.iter().filter(|unit| unit.factor.is_none());
+        let joints: Vec<usize> = unknown.map(|unit| unit.joint).collect();
+        (!joints.is_empty()).then(|| Self {
+            kind: ObservationKind::UnknownUnit,
+            or: Vec::new(),
+            joints,
+            units: Vec::new(),
+            spoils: Spoils::Joints,
+            evidence: None,
+            ..self.clone()
+        })
     }
 
     /// Corrects the runs, if there is one possible correction; whether there is.
     fn mend(&self, robot: &Robot, runs: &mut [Run], t: &InspectionThresholds) -> bool {
         use ObservationKind as K;
-        if !self.or.iter().all(|rival| self.is_same_unit(rival, t)) {
+        if !self.or.is_empty() {
             return false;
         }
         match (self.kind, self.joints.as_slice()) {
             (K::EffortSign, joints) => at(runs, joints, |joint| scale(&mut joint.effort, -1.0)),
             (K::PositionSign, joints) => at(runs, joints, |joint| scale_motion(joint, -1.0)),
             (K::Degrees, joints) => at(runs, joints, |joint| scale_motion(joint, PI / 180.0)),
-            (K::EffortUnit { factor }, joints) => {
-                let Some(unit) = power_of_ten(factor, t.effort_unit) else { return false };
-                at(runs, joints, |joint| scale(&mut joint.effort, 1.0 / unit));
+            (K::EffortUnit { .. }, _) => {
+                for (joint, factor) in self.units.iter().filter_map(|u| Some((u.joint, u.factor?)))
+                {
+                    at(runs, &[joint], |joint| scale(&mut joint.effort, 1.0 / factor));
+                }
             }
             (K::TimeUnit { factor }, _) => {
                 let Some(unit) = power_of_ten(factor, t.time_unit) else { return false };
                 runs.iter_mut().flat_map(|run| &mut run.time).for_each(|t| *t /= unit);
+            }
+            (K::CountedTogether(counted), _) => {
+                runs.iter_mut().for_each(|run| count_apart(run, counted));
             }
             (K::JointsExchanged, &[a, b]) => runs.iter_mut().for_each(|run| exchange(run, a, b)),
             (K::EffortsExchanged, &[a, b]) => {
@@ -154,6 +165,34 @@ fn follows(joint: &Channels) -> bool {
     let steps = joint.position.windows(2).map(|q| q[1] - q[0]);
     let product = |(step, v): (f64, &f64)| if v.is_finite() { step * v } else { 0.0 };
     steps.zip(velocity).map(product).sum::<f64>() >= 0.0
+}
+
+/// Takes the position of the joint before it from that of a joint, and gives that joint the effort of the other drive
+/// where it does not carry it.
+fn count_apart(run: &mut Run, counted: CountedTogether) {
+    let CountedTogether { joint, with, sign, is_driven } = counted;
+    let Channels { position, velocity, acceleration, link_position, .. } = run.joints[with].clone();
+    let own = &mut run.joints[joint];
+    add(&mut own.position, &position, -sign);
+    let others = [
+        (&mut own.velocity, velocity),
+        (&mut own.acceleration, acceleration),
+        (&mut own.link_position, link_position),
+    ];
+    for (own, before) in others {
+        match (own.as_mut(), before) {
+            (Some(own), Some(before)) => add(own, &before, -sign),
+            _ => *own = None,
+        }
+    }
+    if is_driven {
+        let effort = run.joints[joint].effort.clone();
+        add(&mut run.joints[with].effort, &effort, sign);
+    }
+}
+
+fn add(signal: &mut [f64], other: &[f64], factor: f64) {
+    signal.iter_mut().zip(other).for_each(|(x, y)| *x += factor * y);
 }
 
 /// Exchanges the efforts of two joints.
@@ -231,11 +270,8 @@ mod tests {
     }
 
     #[test]
-    fn units_are_powers_of_ten() {
-        assert_eq!(power_of_ten(1400.0, 2.0), Some(1e3));
-        assert_eq!(power_of_ten(1.0 / 0.7e3, 2.0), Some(1e-3));
-        assert_eq!(power_of_ten(400.0, 2.0), None);
-        assert_eq!(power_of_ten(1.3, 2.0), None);
+    fn units_of_time_are_powers_of_ten() {
+        assert_eq!(power_of_ten(400.0, 1.05), None);
         assert_eq!(power_of_ten(1001.0, 1.05), Some(1e3));
         assert_eq!(power_of_ten(1100.0, 1.05), None);
     }

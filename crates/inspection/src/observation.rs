@@ -12,6 +12,8 @@ pub struct Observation {
     pub or: Vec<Rival>,
     /// Joints that it concerns, by index; all of the robot's where it concerns the whole arm.
     pub joints: Vec<usize>,
+    /// The unit of each joint whose effort is in another one.
+    pub units: Vec<JointUnit>,
     /// Runs that it concerns, by index.
     pub runs: Vec<usize>,
     /// The seconds that it concerns, where it does not concern whole runs.
@@ -32,8 +34,20 @@ impl Observation {
         let runs = stretches.first().map(|s| s.run).into_iter().collect();
         let spoils = Spoils::Stretches;
         let (or, joints) = (Vec::new(), vec![joint]);
-        Self { kind, or, joints, runs, stretches, spoils, evidence: None }
+        let units = Vec::new();
+        Self { kind, or, joints, units, runs, stretches, spoils, evidence: None }
     }
+}
+
+/// The unit of a joint's effort.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointUnit {
+    /// The joint, by index.
+    pub joint: usize,
+    /// Logged effort per N m (or N); `None` where the motion of the joint does not show it.
+    pub factor: Option<f64>,
+    /// Standard error of a factor that is the joint's own; `None` where all joints have it.
+    pub standard_error: Option<f64>,
 }
 
 /// A reading that explains the logs as well as another one.
@@ -95,6 +109,23 @@ pub struct ReadingEvidence {
     pub gain: f64,
 }
 
+/// A joint whose position is counted together with that of the joint before it, as where bars or belts drive it from there.
+///
+/// ```text
+/// q_log = q + sign q_with,   and, where the drive works so as well,   tau_log_with = tau_with - sign tau
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CountedTogether {
+    /// The joint.
+    pub joint: usize,
+    /// The joint before it, about a parallel axis.
+    pub with: usize,
+    /// 1 where the positions are added, -1 where they are subtracted.
+    pub sign: f64,
+    /// Whether the effort of the joint before it is that of a drive which does not carry the other drive.
+    pub is_driven: bool,
+}
+
 /// Errors that logs may have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ObservationKind {
@@ -110,9 +141,11 @@ pub enum ObservationKind {
     EffortsExchanged,
     /// The effort of the joints is in another unit.
     EffortUnit {
-        /// Logged effort per N m (or N).
+        /// Logged effort per N m (or N); of several that differ, the middle one.
         factor: f64,
     },
+    /// The effort of the joints is in another unit, as that of other joints is, and their motion does not show which.
+    UnknownUnit,
     /// The effort lacks the torque that holds the arm against gravity.
     EffortWithoutGravity,
     /// Gravity has another direction than in the robot's description.
@@ -134,6 +167,8 @@ pub enum ObservationKind {
     },
     /// Positions are degrees.
     Degrees,
+    /// The position of a joint is counted from further inward than its parent link: `q_log = q + sign q_parent`.
+    CountedTogether(CountedTogether),
     /// Effort and motion disagree about the unit of time.
     TimeUnit {
         /// Logged time per second.
@@ -179,6 +214,8 @@ pub enum ObservationKind {
         /// Length of what they share (s).
         length_s: f64,
     },
+    /// Links of the description have an inertia in another unit.
+    InertiaUnit,
     /// The efforts contradict the nominal torque.
     AnotherRobot,
 }

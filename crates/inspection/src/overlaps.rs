@@ -61,6 +61,7 @@ fn overlap(
     Some(Observation {
         kind: ObservationKind::Overlap { shift_s, length_s },
         or: Vec::new(),
+        units: Vec::new(),
         joints: (0..runs[a].joints.len()).collect(),
         runs: vec![a, b],
         stretches: vec![

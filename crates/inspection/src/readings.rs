@@ -2,10 +2,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::Vector3;
 
+use crate::effort_unit::{effort_unit, joint_units};
 use crate::fit::Drive;
 use crate::judge::{Judge, ReadingFit};
 use crate::log_reading::LogReading;
-use crate::observation::{Observation, ReadingEvidence, Rival, Spoils};
+use crate::observation::{CountedTogether, Observation, ReadingEvidence, Rival, Spoils};
 use crate::payload::shares_with_a_tool;
 
 /// Errors that the nominal torque shows: readings that improve its fit, the best first.
@@ -118,6 +119,7 @@ fn observation(
     Some(Observation {
         kind,
         or,
+        units: joint_units(judge, &best.reading),
         joints,
         runs: (0..runs).collect(),
         stretches: Vec::new(),
@@ -153,14 +155,31 @@ fn candidates(judge: &Judge, as_is: &ReadingFit) -> Vec<LogReading> {
             }
         }
     }
+    all.extend((1..n).flat_map(|j| counted_together(judge, j)));
     let turn = links.iter().all(|link| link.joint.kind.is_rotation());
     if n > 1 && turn && (0..n).any(|j| span(judge, j) > t.degrees_range) {
         all.push(LogReading::Degrees(None));
     }
     all.extend(gravity(judge));
     all.extend(time(judge));
-    all.extend(unit(judge));
+    all.extend(effort_unit(judge));
     all
+}
+
+/// The ways to count a joint together with the one before it, where both turn about parallel axes.
+fn counted_together(judge: &Judge, joint: usize) -> Vec<LogReading> {
+    let links = judge.robot.links();
+    let Some(with) = links[joint].parent else { return Vec::new() };
+    let (own, before) = (&links[joint].joint, &links[with].joint);
+    let axis = own.parent_from_joint.rotation * own.axis_in_joint.into_inner();
+    let is_parallel = axis.dot(&before.axis_in_joint).abs() > judge.thresholds.parallel;
+    if !(is_parallel && own.kind.is_rotation() && before.kind.is_rotation()) {
+        return Vec::new();
+    }
+    let signs = [1.0, -1.0].into_iter();
+    let ways = signs.flat_map(|sign| [false, true].map(|is_driven| (sign, is_driven)));
+    let reading = |(sign, is_driven)| CountedTogether { joint, with, sign, is_driven };
+    ways.map(reading).map(LogReading::CountedTogether).collect()
 }
 
 fn span(judge: &Judge, j: usize) -> f64 {
@@ -197,46 +216,4 @@ fn time(judge: &Judge) -> Option<LogReading> {
     let least = judge.thresholds.time_factor;
     let factor = squared.max(0.0).sqrt();
     (factor > least || (factor > 0.0 && factor < 1.0 / least)).then_some(LogReading::Time(factor))
-}
-
-/// Units of the efforts: factors that no error of a drive makes, for each joint or the same everywhere.
-fn unit(judge: &Judge) -> Vec<LogReading> {
-    let t = judge.thresholds;
-    let free = Drive { gain: [0.0, f64::INFINITY] };
-    let fits = judge.fits(&judge.samples, &judge.whole, free);
-    let none = judge.fits(&judge.samples, &judge.whole, Drive { gain: [0.0, 0.0] });
-    let needed = |j: usize| {
-        fits[j].share < t.mended && none[j].share > t.shows_unit * (fits[j].share + judge.floors[j])
-    };
-    let known: Vec<f64> =
-        (0..fits.len()).filter(|j| needed(*j)).map(|j| fits[j].coefficients[0]).collect();
-    let mut sorted = known.clone();
-    sorted.sort_unstable_by(f64::total_cmp);
-    let Some(&middle) = sorted.get(sorted.len() / 2) else { return Vec::new() };
-    let [low, high] = t.drive_gain;
-    let is_unit = |c: f64| c > 0.0 && (c > high || c < low);
-    let alike = known.iter().all(|c| (c / middle).ln().abs() < (1.0 + t.alike).ln());
-    let mut all = Vec::new();
-    if is_unit(middle) && alike {
-        all.push(LogReading::Unit(vec![middle; fits.len()]));
-    }
-    let mut units: Vec<f64> = known.iter().copied().filter(|c| is_unit(*c)).collect();
-    units.sort_unstable_by(f64::total_cmp);
-    // A joint that does not show its unit has that of most others.
-    let usual = units.get(units.len() / 2).copied().filter(|_| 2 * units.len() > known.len());
-    let own = |j: usize| match fits[j].coefficients[0] {
-        c if needed(j) => {
-            if is_unit(c) {
-                c
-            } else {
-                1.0
-            }
-        }
-        _ => usual.unwrap_or(1.0),
-    };
-    let each: Vec<f64> = (0..fits.len()).map(own).collect();
-    if each.iter().any(|c| (c - 1.0).abs() > 1e-9) {
-        all.push(LogReading::Unit(each));
-    }
-    all
 }

@@ -3,7 +3,9 @@ use std::f64::consts::PI;
 use logs::{Run, of_run};
 use robot::Robot;
 
-use crate::observation::{Observation, ObservationKind, Rival, RunStretch};
+use crate::observation::{
+    CountedTogether, JointUnit, Observation, ObservationKind, Rival, RunStretch,
+};
 
 const FOREIGN: &str = "Nothing of the nominal torque is in the efforts, whatever sign, order, unit, gravity or clock \
                        they are read with";
@@ -18,6 +20,9 @@ impl Observation {
     pub fn sentence(&self, robot: &Robot, runs: &[Run]) -> String {
         let names = Names { robot, runs };
         let mut text = names.what(self.kind, &self.joints);
+        if let Some(own) = names.own_units(&self.units) {
+            text = own;
+        }
         if let ObservationKind::Overlap { shift_s, length_s } = self.kind {
             return names.overlap(&self.runs, shift_s, length_s);
         }
@@ -100,6 +105,10 @@ impl Names<'_> {
                     "The effort of {at} seems to be in another unit: {factor} logged per {unit}"
                 )
             }
+            K::UnknownUnit => format!(
+                "The unit of the effort of {at} is not known: other joints are in another unit, and the motion here does \
+                 not show its own"
+            ),
             K::EffortWithoutGravity => "The efforts lack the torque of gravity".to_owned(),
             K::GravityDirection { .. } | K::GravityValue { .. } => self.gravity(kind),
             K::PositionOffset { offset } => {
@@ -108,6 +117,7 @@ impl Names<'_> {
                     offset * 180.0 / PI
                 )
             }
+            K::CountedTogether(counted) => self.counting_words(counted),
             K::Degrees => format!("The position of {at} seems to be degrees"),
             K::TimeUnit { factor } => format!(
                 "Effort and motion disagree on what a second is: {} in the column `time` are one",
@@ -127,6 +137,7 @@ impl Names<'_> {
                 format!("The effort of {at} is at {limit:.3} {unit} for {share} of the time")
             }
             K::Overlap { .. } => String::new(),
+            K::InertiaUnit => self.wide_inertias(),
             K::AnotherRobot => FOREIGN.to_owned(),
         }
     }
@@ -151,6 +162,30 @@ impl Names<'_> {
         }
     }
 
+    /// The links whose inertia is in another unit.
+    fn wide_inertias(&self) -> String {
+        let all = self.robot.wide_inertias();
+        let each: Vec<String> = all.iter().map(ToString::to_string).collect();
+        format!("The description has an inertia in another unit: {}", each.join("; "))
+    }
+
+    /// A position that is counted together with another one.
+    fn counting_words(&self, counted: CountedTogether) -> String {
+        let [own, with] = [counted.joint, counted.with].map(|j| self.joint(j));
+        let sign = if counted.sign > 0.0 { "+" } else { "-" };
+        let drive = if counted.is_driven {
+            format!(
+                ", and the effort of {with} to be that of a drive that does not carry the drive of {own}"
+            )
+        } else {
+            String::new()
+        };
+        format!(
+            "The position of joint {own} seems to be counted from where {with} begins (its column holds {own} {sign} \
+             {with}){drive}"
+        )
+    }
+
     /// Another gravity than that of the description.
     fn gravity(&self, kind: ObservationKind) -> String {
         let nominal = self.robot.gravity_in_base().norm();
@@ -168,6 +203,23 @@ impl Names<'_> {
             ),
             _ => String::new(),
         }
+    }
+
+    /// The units of joints that have each their own; `None` where all have the same.
+    fn own_units(&self, units: &[JointUnit]) -> Option<String> {
+        let one = |unit: &JointUnit| {
+            let (factor, error) = (unit.factor?, unit.standard_error?);
+            let [low, high] = [factor - 2.0 * error, factor + 2.0 * error].map(number);
+            let (joint, factor) = (self.joint(unit.joint), number(factor));
+            Some(format!("{factor} ({low} to {high}) at {joint}"))
+        };
+        let each: Vec<String> = units.iter().filter_map(one).collect();
+        let joints: Vec<usize> = units.iter().map(|unit| unit.joint).collect();
+        let [_, unit] = self.units(&joints);
+        (!each.is_empty()).then(|| {
+            let each = each.join(", ");
+            format!("The efforts seem to be in another unit, such as currents: logged per {unit} are {each}")
+        })
     }
 
     fn alternative(&self, rival: &Rival) -> String {
@@ -211,7 +263,7 @@ fn remedy(kind: ObservationKind) -> &'static str {
         }
         K::VelocitySign => "The velocity column is not used; turn its sign.",
         K::JointsExchanged | K::EffortsExchanged => "Put the columns under the right names.",
-        K::EffortUnit { .. } => "State the unit in the column map.",
+        K::EffortUnit { .. } | K::UnknownUnit => "State the unit in the column map.",
         K::EffortWithoutGravity => {
             "Log the whole torque, or add the controller's gravity torque to the effort: without it, nothing at rest tells a mass."
         }
@@ -220,6 +272,9 @@ fn remedy(kind: ObservationKind) -> &'static str {
         }
         K::PositionOffset { .. } => {
             "Check the zero of the encoder against that of the description."
+        }
+        K::CountedTogether(_) => {
+            "Log the angle between the two links, or describe the joint as it is counted."
         }
         K::Degrees => "State the unit in the column map.",
         K::TimeUnit { .. } => {
@@ -239,19 +294,24 @@ fn remedy(kind: ObservationKind) -> &'static str {
         K::Overlap { .. } => {
             "Use one of them: what is fitted to the one is not tested by the other."
         }
+        K::InertiaUnit => "No logs can be compared with such a model.",
         K::AnotherRobot => "Check that logs and description are of the same robot.",
     }
 }
 
 fn percent(share: f64) -> String {
-    format!("{:.0} %", 100.0 * share)
+    if share > MOST_SHARE { "over 1000 %".to_owned() } else { format!("{:.0} %", 100.0 * share) }
 }
+
+/// Share from which on its digits say nothing more.
+const MOST_SHARE: f64 = 10.0;
 
 /// A factor with three digits.
 fn number(x: f64) -> String {
     match x.abs() {
         size if !(1e-2..1e5).contains(&size) => format!("{x:.2e}"),
         size if size >= 100.0 => format!("{x:.0}"),
+        size if size < 1.0 => format!("{x:.4}"),
         _ => format!("{x:.3}"),
     }
 }

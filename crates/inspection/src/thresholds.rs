@@ -88,8 +88,6 @@ pub struct InspectionThresholds {
     pub least_rate_hz: f64,
     /// Factor by which a unit of time may be off the power of ten that it is (1): velocities show it to some per mille.
     pub time_unit: f64,
-    /// The same of a unit of efforts (1): model and torque constant may both be wrong.
-    pub effort_unit: f64,
     /// Angle up to which gravity has the direction of the description (rad).
     pub aligned_gravity: f64,
     /// Least and largest gravity of a place where arms work (m/s²): that of the moon, and twice that of the earth.
@@ -106,6 +104,8 @@ pub struct InspectionThresholds {
     pub most_rivals: usize,
     /// Range of a rotation from which on its position may be in degrees (rad).
     pub degrees_range: f64,
+    /// Cosine of the angle between two axes from which on they are parallel (1).
+    pub parallel: f64,
     /// Factor by which the residual of a joint falls that confirms a reading (1).
     pub confirms: f64,
     /// A reading of the whole arm is confirmed by one joint in so many: the others may carry too little to show it.
@@ -188,7 +188,6 @@ impl Default for InspectionThresholds {
             same_velocity_factor: 0.02,
             least_rate_hz: 10.0,
             time_unit: 1.05,
-            effort_unit: 2.0,
             aligned_gravity: 0.3,
             gravity_sizes: [1.0, 20.0],
             pooled_share: 0.01,
@@ -197,6 +196,7 @@ impl Default for InspectionThresholds {
             most_readings: 4,
             most_rivals: 6,
             degrees_range: 10.0,
+            parallel: 0.999,
             confirms: 2.0,
             joints_of_confirming: 3,
             most_confirming: 2,

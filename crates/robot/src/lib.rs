@@ -41,4 +41,5 @@ pub use structure::link::Link;
 pub use structure::looks::{Looks, Shape, Visual};
 pub use structure::part::{JointSelection, LockedJoint};
 pub use structure::robot::Robot;
+pub use structure::wide_inertia::WideInertia;
 pub use warning::RobotWarning;

@@ -178,6 +178,10 @@ impl Loaded {
             }
             self.warnings.push(RobotWarning::Massless { link });
         }
+        let is_told = |link: &str| self.warnings.iter().any(|w| w.link() == Some(link));
+        let wide = self.robot.wide_inertias().into_iter().filter(|wide| !is_told(&wide.link));
+        let wide: Vec<RobotWarning> = wide.map(RobotWarning::WideInertia).collect();
+        self.warnings.extend(wide);
         for lock in &self.locked {
             let (joint, position) = (lock.joint.clone(), lock.position);
             let limits = whole_limits(&model.robot, &joint);

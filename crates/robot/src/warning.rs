@@ -1,6 +1,7 @@
 use std::fmt;
 
 use crate::structure::inertia::InertiaDefect;
+use crate::structure::wide_inertia::WideInertia;
 
 /// A problem in the description of a robot that does not keep it from being used.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +19,8 @@ pub enum RobotWarning {
         /// What is wrong with it.
         defect: InertiaDefect,
     },
+    /// An inertia asks for mass far outside of its link: it is in another unit.
+    WideInertia(WideInertia),
     /// A joint is held fixed although it mimics a moving joint.
     MimicLocked {
         /// The joint.
@@ -89,6 +92,7 @@ impl RobotWarning {
         matches!(
             self,
             Self::Massless { .. }
+                | Self::WideInertia(_)
                 | Self::MimicLocked { .. }
                 | Self::BaseHeld { .. }
                 | Self::LimbsOnBase { .. }
@@ -101,6 +105,7 @@ impl RobotWarning {
     pub fn link(&self) -> Option<&str> {
         match self {
             Self::Massless { link } | Self::Inertia { link, .. } => Some(link),
+            Self::WideInertia(wide) => Some(&wide.link),
             _ => None,
         }
     }
@@ -157,6 +162,7 @@ impl fmt::Display for RobotWarning {
                 "{what} ({count}): it is not read, and what it does to the motion is left out"
             ),
             Self::Inertia { link, defect } => write!(f, "link {link}: {defect}"),
+            Self::WideInertia(wide) => write!(f, "{wide}"),
         }
     }
 }

@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
 use dynamics::{ColumnSet, base_parameter_count};
-use robot::{Actuator, JointKind, Link, Loaded, LockedJoint, RobotWarning};
+use robot::{Actuator, JointKind, Link, Loaded, LockedJoint, RobotWarning, WideInertia};
 use serde::Serialize;
 
 use crate::error::CliError;
@@ -93,6 +93,7 @@ impl Check {
         let robot = &loaded.robot;
         let count = |set| base_parameter_count(robot, set);
         let rotors = ColumnSet { rotor: true, ..ColumnSet::INERTIAL };
+        let wide = robot.wide_inertias();
         let friction = ColumnSet { viscous: true, coulomb: true, ..ColumnSet::INERTIAL };
         Self {
             schema: "plumbline.robot_check/1",
@@ -101,7 +102,7 @@ impl Check {
             urdf: display_path(&loaded.urdf_path),
             base_link: loaded.base_link.clone(),
             gravity_m_per_s2: robot.gravity_in_base().into(),
-            joints: robot.links().iter().map(JointCheck::new).collect(),
+            joints: robot.links().iter().map(|link| JointCheck::new(link, &wide)).collect(),
             locked: loaded.locked.iter().map(LockCheck::new).collect(),
             base_parameters: BaseCounts {
                 inertial: count(ColumnSet::INERTIAL),
@@ -126,7 +127,9 @@ impl LockCheck {
 }
 
 impl JointCheck {
-    fn new(link: &Link) -> Self {
+    fn new(link: &Link, wide: &[WideInertia]) -> Self {
+        let wide = wide.iter().filter(|wide| wide.link == link.name);
+        let wide = wide.map(|wide| format!("radius of gyration {} m", short(wide.radius_m)));
         let (joint, inertia) = (&link.joint, &link.inertia);
         let Actuator { rotor_inertia, viscous, coulomb_forward, coulomb_backward, .. } =
             link.actuator;
@@ -147,7 +150,7 @@ impl JointCheck {
             link: link.name.clone(),
             mass_kg: inertia.mass,
             merged: link.merged.clone(),
-            link_defects: inertia.defects().iter().map(ToString::to_string).collect(),
+            link_defects: inertia.defects().iter().map(ToString::to_string).chain(wide).collect(),
         }
     }
 }

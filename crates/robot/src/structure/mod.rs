@@ -9,3 +9,4 @@ pub(crate) mod looks;
 pub(crate) mod lumping;
 pub(crate) mod part;
 pub(crate) mod robot;
+pub(crate) mod wide_inertia;
