@@ -11,6 +11,8 @@ use logs::{ReadOptions, Run};
 use robot::Robot;
 use simulator::scenario::Scenario;
 
+use crate::hidden::STEP;
+
 const RUNS: &str = "run=[\
     { name='a', motion={ sinusoids={ seed=11, terms=3, lowest_hz=0.1, highest_hz=0.5, duration_s=15.0 } } },\
     { name='b', motion={ sinusoids={ seed=12, terms=3, lowest_hz=0.1, highest_hz=0.5, duration_s=15.0 } } }]";
@@ -23,7 +25,7 @@ pub fn simulate(folder: &Path, settings: &[&str]) {
 /// The same with runs that the settings say.
 pub fn simulate_runs(folder: &Path, settings: &[&str]) {
     let mut document = Document::read(workspace_root().join("scenarios/arms/wam.toml")).unwrap();
-    for setting in settings {
+    for setting in [&[STEP], settings].concat() {
         document.set(setting).unwrap();
     }
     let scenario = Scenario::from_document(&document).unwrap();

@@ -19,6 +19,8 @@ use robot::{Loaded, Robot};
 use simulator::scenario::Scenario;
 use zip::write::SimpleFileOptions;
 
+use crate::hidden::STEP;
+
 /// Every so many of a log's rows are kept: 125 or 250 a second.
 const EVERY: usize = 4;
 
@@ -53,6 +55,7 @@ fn runs(case: &Case) -> Vec<Run> {
         case.joint, case.level_nm
     );
     for assignment in [
+        STEP.to_owned(),
         "seed=1".to_owned(),
         format!("effect=[{effect}]"),
         format!("run=[{}, {}, {}]", motion(1), motion(2), motion(3)),

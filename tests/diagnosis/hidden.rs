@@ -58,7 +58,7 @@ const DWELLING: &Parts = &[
 
 /// Twice the step that scenarios have by default, for half the steps. A leapfrog's error in the acceleration of a
 /// motion of 1.5 Hz is `(w h)² / 12`, 3e-7 of it.
-const STEP: &str = "engine.step_ms=0.2";
+pub const STEP: &str = "engine.step_ms=0.2";
 
 /// `motion` with the phases of `seed`, in TOML.
 fn motion_of(motion: &Parts, seed: u64) -> String {
