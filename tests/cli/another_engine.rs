@@ -57,12 +57,10 @@ fn write_entry(entry: &Path, scenario: &str) {
         position: of(&|_| 0.0),
         effort: of(&|_| 0.0),
         velocity: Some(of(&|_| 0.0)),
-        acceleration: None,
         desired_position: Some(of(&|x| AMPLITUDE * (1.0 - x.cos()))),
         desired_velocity: Some(of(&|x| AMPLITUDE * OMEGA * x.sin())),
         desired_acceleration: Some(of(&|x| AMPLITUDE * OMEGA * OMEGA * x.cos())),
-        commanded_effort: None,
-        link_position: None,
+        ..Channels::default()
     };
     let run = Run {
         name: "held_out".to_owned(),

@@ -98,10 +98,14 @@ fn text_of(e: &Estimate) -> String {
 #[test]
 fn every_effect_that_has_a_model_is_hidden_in_the_simulated_arm() {
     for kind in MODELLED {
-        // A counterbalance is looked for where a robot has one, and warming up takes minutes: `counterbalance`,
-        // `warming`.
-        let apart =
-            matches!(kind, EffectKind::Counterbalance | EffectKind::FrictionTemperatureDrift);
+        // A counterbalance is looked for where a robot has one, warming up takes minutes, and late goals are those of
+        // servos: `counterbalance`, `warming`, `late_goals`.
+        let apart = matches!(
+            kind,
+            EffectKind::Counterbalance
+                | EffectKind::FrictionTemperatureDrift
+                | EffectKind::GoalDelay
+        );
         assert!(apart || crate::hidden::HIDDEN.contains(&kind), "{kind}");
         assert!(trials(kind).iter().all(|t| t.kind == kind), "{kind}");
     }

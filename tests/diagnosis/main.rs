@@ -15,6 +15,7 @@ mod grafts;
 mod held_out;
 mod hidden;
 mod intervals;
+mod late_goals;
 mod ledger;
 mod long;
 mod poor;

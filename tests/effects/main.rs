@@ -12,7 +12,8 @@ use effects::{
     ColumnPart, Compensation, EffectColumn, Encoders, FeedforwardEfforts, Frame, Hypothesis, Place,
     Priors, RunMotion, Scale, hypotheses, model,
 };
-use robot::{Coupling, FrictionWave, Robot, Stribeck, TorqueSource, Warming};
+use logs::GoalEffort;
+use robot::{Coupling, FrictionWave, PdGain, Robot, Stribeck, TorqueSource, Warming};
 
 const SAMPLES: usize = 40;
 
@@ -25,7 +26,11 @@ const STARTS_AT_ZERO: [EffectKind; 4] = [
 ];
 
 /// Effects that move efforts in time, between samples by pieces of cubics.
-const TIMES: [EffectKind; 2] = [EffectKind::TimeSkew, EffectKind::ActuatorDelay];
+const TIMES: [EffectKind; 3] =
+    [EffectKind::TimeSkew, EffectKind::ActuatorDelay, EffectKind::GoalDelay];
+
+/// Described delay of the goals (s).
+const GOAL_DELAY_S: f64 = 0.01;
 
 /// Step of the central difference, in standard deviations of the prior: the truncation is
 /// second order, the rounding 1e-16 over it.
@@ -49,6 +54,7 @@ fn worn() -> Robot {
         (a.delay_s, a.effort_skew_s) = (0.003, 0.003);
         (a.encoder_offset, a.transmission_ratio) = (0.02, 1.05);
         a.load_friction = 0.1;
+        (a.position_loop, a.goal_delay_s) = (Some(PdGain { kp: 3.0, kd: 0.1 }), GOAL_DELAY_S);
         a.torque_source = TorqueSource::Commanded;
     }
     robot
@@ -96,6 +102,7 @@ fn frame(robot: &Robot) -> Frame {
         reach: vec![1.0; n],
         resolution: vec![0.0; n],
         trial_gaps: vec![0.0; n],
+        trial_lateness_s: 0.0,
     }
 }
 
@@ -123,8 +130,20 @@ fn state(robot: &Robot) -> [Vec<Vec<f64>>; 3] {
     [signal(0.8, 0.0), signal(1.0, 1.3), signal(2.0, 0.7)]
 }
 
+/// The parts of efforts that follow goals, computed with the described delay.
+fn goal_efforts(robot: &Robot) -> Vec<Option<GoalEffort>> {
+    let goal = |q: &Vec<f64>| {
+        let values = q.iter().map(|q| 3.0 * (1.2 * q).sin()).collect();
+        Some(GoalEffort { values, lead: 0, delay_s: GOAL_DELAY_S })
+    };
+    state(robot)[0].iter().map(goal).collect()
+}
+
 fn motion(robot: &Robot) -> RunMotion {
-    RunMotion::new(robot, &frame(robot), state(robot), 0.05)
+    let (reported, links) = (state(robot), vec![None; robot.joint_count()]);
+    let goal_efforts = goal_efforts(robot);
+    let encoders = Encoders { reported, links, goal_efforts, since_cold_s: 0.0 };
+    RunMotion::from_encoders(robot, &frame(robot), encoders, 0.05)
 }
 
 /// The same motion, with encoders at the links that do not quite say the same.
@@ -136,10 +155,11 @@ fn seen(robot: &Robot) -> RunMotion {
         Some([q.iter().map(|q| 0.97 * q + 0.01).collect(), scaled(qd), scaled(qdd)])
     };
     let links = (0..robot.joint_count()).map(link).collect();
+    let goal_efforts = goal_efforts(robot);
     RunMotion::from_encoders(
         robot,
         &frame(robot),
-        Encoders { reported, links, since_cold_s: 0.0 },
+        Encoders { reported, links, goal_efforts, since_cold_s: 0.0 },
         0.05,
     )
 }

@@ -7,11 +7,12 @@ use std::path::{Path, PathBuf};
 use arrow_array::RecordBatch;
 use arrow_array::cast::AsArray;
 use arrow_array::types::Float64Type;
+use catalogue::EffectKind;
 use logs::{ReadOptions, Run, read_run};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use population::{
-    ArmClass, LogDamageSpec, LogKind, LogKindSpec, PopulationSpec, ServoShareSpec, TruthSheet,
-    damage_logs, make,
+    ArmClass, LogDamageSpec, LogKind, LogKindSpec, PopulationSpec, ServoShareSpec, TrueCause,
+    TruthSheet, damage_logs, make,
 };
 use robot::{Loaded, Robot};
 
@@ -136,7 +137,7 @@ fn the_stated_limit_is_below_the_efforts() {
     assert!((largest / limit - 1.25).abs() < 1e-6, "{largest} N m of {limit} N m");
 }
 
-/// The loop in robot.toml tells the torque of servos whose goals come on time; goals that come late are a stranger.
+/// The loop in robot.toml tells the torque of servos whose goals come on time; goals that come late are a cause, those on time none.
 #[test]
 fn servos_log_goals_and_positions_alone() {
     let made = Made::new(&servos(40.0), 6);
@@ -153,11 +154,12 @@ fn servos_log_goals_and_positions_alone() {
     let run = read_run(&path, &robot, &ReadOptions::default()).unwrap();
     assert!(run.joints.iter().all(|joint| joint.desired_position.is_some()));
     assert!(run.joints.iter().all(|joint| joint.velocity.is_none()));
-    let late = made.sheet.strangers.iter().find(|s| s.name == "servo: late goals").unwrap();
+    let is_late = |cause: &&TrueCause| cause.truth.effect == EffectKind::GoalDelay;
+    let late = made.sheet.causes.iter().find(is_late).unwrap();
+    assert!((late.truth.parameters["delay"] - 0.04).abs() < 1e-12);
     assert!(late.strength.torque > 0.02 && late.strength.share <= late.strength.torque + 1e-9);
     let early = Made::new(&servos(0.0), 6);
-    let early = early.sheet.strangers.iter().find(|s| s.name == "servo: late goals").unwrap();
-    assert!(early.strength.torque < late.strength.torque);
+    assert!(early.sheet.causes.iter().find(is_late).is_none());
 }
 
 /// The same rows of a larger share, and nothing else, are spoilt in logs that are there.

@@ -16,6 +16,7 @@ mod encoder_offset;
 mod engine;
 mod external_disturbance;
 mod friction_temperature_drift;
+mod goal_delay;
 mod gravity_direction;
 mod hidden;
 mod inertial_parameters;

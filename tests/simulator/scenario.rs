@@ -5,7 +5,7 @@ use simulator::SimulatorError;
 use simulator::scenario::Scenario;
 
 /// One effect of every kind, as it may stand on the WAM.
-pub const EFFECTS: [&str; 27] = [
+pub const EFFECTS: [&str; 28] = [
     "viscous_friction = { joint = 'j4_elbow_pitch', viscous_nm_s_per_rad = 0.5 }",
     "coulomb_friction = { joint = 'j4_elbow_pitch', level_nm = 0.5 }",
     "asymmetric_friction = { joint = 'j4_elbow_pitch', forward_nm = 0.5, backward_nm = 0.7 }",
@@ -33,6 +33,7 @@ pub const EFFECTS: [&str; 27] = [
     "time_skew = { joint = 'j4_elbow_pitch', skew_ms = 3.0 }",
     "external_disturbance.push = { link = 'palm', force_n = [0.0, 5.0, 0.0], start_s = 0.1, duration_s = 0.1 }",
     "counterbalance = { joint = 'j4_elbow_pitch', amplitude_nm = 2.0, phase_rad = 0.5 }",
+    "goal_delay = { delay_ms = 30.0 }",
 ];
 
 /// The other form of a disturbance.

@@ -4,7 +4,7 @@ use crate::entry::{EffectEntry, TORQUE, always, parameter, phase};
 use crate::family::Family;
 use crate::kind::EffectKind::{
     ActuatorDelay, ActuatorLag, AsymmetricFriction, CableSpring, ExternalDisturbance,
-    FrictionTemperatureDrift, GravityDirection, InertialParameters, JointElasticity,
+    FrictionTemperatureDrift, GoalDelay, GravityDirection, InertialParameters, JointElasticity,
     LoadDependentFriction, Payload, PositionDependentFriction, RotorInertia, StribeckFriction,
     TimeSkew, TorqueConstant, TorqueOffset, TorqueRipple, TorqueSaturation, TransmissionRatio,
     ViscousFriction,
@@ -118,6 +118,25 @@ pub(crate) const ACTUATOR_DELAY: EffectEntry = EffectEntry {
     confused_with: &[ViscousFriction, JointElasticity, ActuatorLag, TimeSkew],
     told_apart_by: "a chirp to high frequencies, with the torque measured beside the command",
     source: "transport delay",
+};
+
+pub(crate) const GOAL_DELAY: EffectEntry = EffectEntry {
+    kind: GoalDelay,
+    family: Family::Drive,
+    words: "goal delay",
+    summary: "goals that reach the position loop late",
+    equation: "kp (goal(t) - goal(t - delay))",
+    parameters: &[parameter(
+        "delay",
+        always("s"),
+        "time from the row of a goal to the position loop",
+        (0.01, 0.06),
+    )],
+    signature: "efforts computed from goals follow the rate of the goals, at every joint by its stiffness",
+    needs: "a log of goals without efforts, and the gains of the position loops",
+    confused_with: &[ViscousFriction, TimeSkew],
+    told_apart_by: "fast and slow starts: a goal that leaps shows when the joint follows, friction only how fast",
+    source: "transport delay before a PD loop",
 };
 
 pub(crate) const TORQUE_SATURATION: EffectEntry = EffectEntry {

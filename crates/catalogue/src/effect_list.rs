@@ -71,6 +71,8 @@ macro_rules! for_each_effect {
             ExternalDisturbance external_disturbance "EN03";
             /// A spring or weight that carries part of the weight of what a joint lifts.
             Counterbalance counterbalance "EN04";
+            /// Goals that reach a servo's position loop later than they are logged.
+            GoalDelay goal_delay "DR07";
         }
     };
 }

@@ -33,6 +33,7 @@ impl EffectKind {
             Self::TransmissionRatio => &transmission::TRANSMISSION_RATIO,
             Self::TimeSkew => &sensing::TIME_SKEW,
             Self::ExternalDisturbance => &environment::EXTERNAL_DISTURBANCE,
+            Self::GoalDelay => &drive::GOAL_DELAY,
             Self::Counterbalance => &environment::COUNTERBALANCE,
         }
     }

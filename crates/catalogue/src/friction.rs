@@ -4,9 +4,9 @@ use crate::entry::{EffectEntry, TORQUE, always, parameter, phase};
 use crate::family::Family;
 use crate::kind::EffectKind::{
     ActuatorDelay, ActuatorLag, AsymmetricFriction, Backlash, CableSpring, CoulombFriction,
-    DifferentialCoupling, FrictionTemperatureDrift, JointElasticity, LoadDependentFriction,
-    PositionDependentFriction, PreslidingFriction, StribeckFriction, TimeSkew, TorqueConstant,
-    TorqueOffset, TorqueRipple, ViscousFriction,
+    DifferentialCoupling, FrictionTemperatureDrift, GoalDelay, JointElasticity,
+    LoadDependentFriction, PositionDependentFriction, PreslidingFriction, StribeckFriction,
+    TimeSkew, TorqueConstant, TorqueOffset, TorqueRipple, ViscousFriction,
 };
 
 pub(crate) const VISCOUS: EffectEntry = EffectEntry {
@@ -29,6 +29,7 @@ pub(crate) const VISCOUS: EffectEntry = EffectEntry {
         ActuatorLag,
         ActuatorDelay,
         TimeSkew,
+        GoalDelay,
     ],
     told_apart_by: "constant speeds, slow and fast, in both directions",
     source: "Armstrong-Helouvry, Dupont & Canudas de Wit 1994",

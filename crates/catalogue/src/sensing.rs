@@ -3,8 +3,8 @@
 use crate::entry::{EffectEntry, POSITION, always, parameter};
 use crate::family::Family;
 use crate::kind::EffectKind::{
-    ActuatorDelay, ActuatorLag, EncoderOffset, GravityDirection, InertialParameters, TimeSkew,
-    TransmissionRatio, ViscousFriction,
+    ActuatorDelay, ActuatorLag, EncoderOffset, GoalDelay, GravityDirection, InertialParameters,
+    TimeSkew, TransmissionRatio, ViscousFriction,
 };
 
 pub(crate) const ENCODER_OFFSET: EffectEntry = EffectEntry {
@@ -41,7 +41,7 @@ pub(crate) const TIME_SKEW: EffectEntry = EffectEntry {
     )],
     signature: "the residual follows the rate of the torque, and a shift of the effort undoes it",
     needs: "torque that changes fast",
-    confused_with: &[ViscousFriction, ActuatorLag, ActuatorDelay],
+    confused_with: &[ViscousFriction, ActuatorLag, ActuatorDelay, GoalDelay],
     told_apart_by: "a knock at rest, which position and measured torque should show together",
     source: "substitution of the true time",
 };

@@ -8,7 +8,7 @@ use crate::find_tones::ToneSearch;
 use crate::oscillations::limits::limits;
 use crate::oscillations::lines::RingingBand;
 use crate::outcome::held_out::HeldOutPart;
-use crate::outcome::hold::words_for_hold;
+use crate::outcome::hold::{words_for_goals, words_for_hold};
 use crate::outcome::second_encoder::compare_encoders;
 use crate::outcome::traces::{RunTraces, traces};
 use crate::progress::DiagnosisProgress;
@@ -73,6 +73,7 @@ pub fn diagnose(
     if settings.control_rate_hz.is_none() {
         warnings.extend(words_for_hold(robot, &extended, fastest_hz.recip()));
     }
+    warnings.extend(words_for_goals(robot, &extended, fastest_hz.recip()));
     diagnosis.warnings = warnings;
     if read.is_some() {
         diagnosis.data.put_right = true;

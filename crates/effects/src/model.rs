@@ -9,6 +9,7 @@ use crate::causes::counterbalance::Counterbalance;
 use crate::causes::differential_coupling::DifferentialCoupling;
 use crate::causes::encoder_offset::EncoderOffset;
 use crate::causes::friction_temperature_drift::FrictionTemperatureDrift;
+use crate::causes::goal_delay::GoalDelay;
 use crate::causes::gravity_direction::GravityDirection;
 use crate::causes::inertial_parameters::InertialParameters;
 use crate::causes::joint_elasticity::JointElasticity;
@@ -29,7 +30,7 @@ use crate::causes::unmodelled::{
 use crate::causes::viscous_friction::ViscousFriction;
 
 /// The effects that have a model, in the order in which hypotheses are laid out.
-pub const MODELLED: [EffectKind; 24] = [
+pub const MODELLED: [EffectKind; 25] = [
     EffectKind::ViscousFriction,
     EffectKind::CoulombFriction,
     EffectKind::AsymmetricFriction,
@@ -56,6 +57,7 @@ pub const MODELLED: [EffectKind; 24] = [
     EffectKind::TimeSkew,
     EffectKind::ActuatorDelay,
     EffectKind::ActuatorLag,
+    EffectKind::GoalDelay,
 ];
 
 /// The model side of `kind`.
@@ -100,6 +102,7 @@ fn find(kind: EffectKind) -> Result<&'static dyn AnyEffect, Unmodelled> {
         EffectKind::Backlash => &Backlash,
         EffectKind::JointElasticity => &JointElasticity,
         EffectKind::TimeSkew => &TimeSkew,
+        EffectKind::GoalDelay => &GoalDelay,
         EffectKind::ActuatorDelay => &LateTorque::Delay,
         EffectKind::ActuatorLag => &LateTorque::Lag,
         EffectKind::TorqueRipple => return Err(TORQUE_RIPPLE),

@@ -5,6 +5,8 @@
 pub struct Priors {
     /// Standard deviation of a time skew, a delay and a lag (s): some samples of a control loop.
     pub time_sd_s: f64,
+    /// Standard deviation of the delay of a goal on its way to a servo (s): a bus and a program that sends at 30 to 50 Hz.
+    pub goal_delay_sd_s: f64,
     /// Standard deviation of a torque gain (1): published constants of one drive differ by 5 to 30 per cent (Barrett
     /// puck IPNM values, 2472 to 2755 and 17474 to 21400).
     pub torque_gain_sd: f64,
@@ -79,6 +81,7 @@ impl Default for Priors {
     fn default() -> Self {
         Self {
             time_sd_s: 0.005,
+            goal_delay_sd_s: 0.03,
             torque_gain_sd: 0.2,
             torque_gain_limit: 0.4,
             transmission_ratio_sd: 0.03,

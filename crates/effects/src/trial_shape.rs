@@ -27,13 +27,15 @@ pub struct ShapedRobot {
     pub robot: Robot,
     /// Trial gap of each joint (rad or m), for [`Frame::trial_gaps`](crate::Frame::trial_gaps); 0 where none is set.
     pub trial_gaps: Vec<f64>,
+    /// Trial time of late goals (s), for [`Frame::trial_lateness_s`](crate::Frame::trial_lateness_s); 0 where none is set.
+    pub trial_lateness_s: f64,
 }
 
 impl ShapedRobot {
     /// The robot with no trial shape yet.
     pub fn new(robot: Robot) -> Self {
         let trial_gaps = vec![0.0; robot.joint_count()];
-        Self { robot, trial_gaps }
+        Self { robot, trial_gaps, trial_lateness_s: 0.0 }
     }
 
     /// Gives the robot an effect with this shape and size zero, which does not change its efforts.

@@ -53,6 +53,8 @@ pub enum DriveQuantity {
     Ratio,
     /// Effort later than position in the log.
     Skew,
+    /// Goals that reach the position loop late.
+    GoalDelay,
 }
 
 /// Half the sum and half the difference of the levels in both directions.
@@ -108,6 +110,7 @@ pub fn quantities(robot: &Robot, link: &Link) -> Vec<(DriveQuantity, String)> {
     add(Q::EncoderOffset, a.encoder_offset, 0.0, "encoder offset", rad);
     add(Q::Ratio, a.transmission_ratio, 1.0, "true over reported position", "");
     add(Q::Skew, 1e3 * a.effort_skew_s, 0.0, "effort late by", "ms");
+    add(Q::GoalDelay, 1e3 * a.goal_delay_s, 0.0, "goals late by", "ms");
     if let Some(coupling) = a.coupling {
         let other = robot.joint_names().nth(coupling.other).unwrap_or_default();
         list.push((Q::Coupling, format!("friction of motors shared with {other}")));

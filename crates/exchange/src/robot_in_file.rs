@@ -91,5 +91,6 @@ fn leave_out(quantity: DriveQuantity, drive: &mut Actuator) {
         Q::EncoderOffset => drive.encoder_offset = 0.0,
         Q::Ratio => drive.transmission_ratio = 1.0,
         Q::Skew => drive.effort_skew_s = 0.0,
+        Q::GoalDelay => drive.goal_delay_s = 0.0,
     }
 }

@@ -36,7 +36,7 @@ pub use reading::presets::{Recognised, preset_names, recognise};
 pub use reading::read::{read_run, read_run_until_damage, run_of_columns};
 pub use runs::duplicate::{duplicate_of, is_repeat, without_repeats};
 pub use runs::repair::Repair;
-pub use runs::run::{Channel, Channels, Run, of_run};
+pub use runs::run::{Channel, Channels, GoalEffort, Run, of_run};
 pub use runs::stretches::{ENOUGH_SAMPLES, thin_out};
 pub use signals::agreement::Agreement;
 pub use signals::differentiate::differentiate;

@@ -42,7 +42,8 @@ impl Known {
         let (robot, trial_gaps) = (&shaped.robot, shaped.trial_gaps.clone());
         let scale = Scale::of_logs(robot, logs);
         let rest_speed = scale.speed.iter().map(|speed| REST_SHARE * speed).collect();
-        let frame = Frame { rest_speed, trial_gaps, ..Frame::of_logs(logs) };
+        let trial_lateness_s = shaped.trial_lateness_s;
+        let frame = Frame { rest_speed, trial_gaps, trial_lateness_s, ..Frame::of_logs(logs) };
         let information = along_logs(robot, layout, &frame, logs)?;
         Ok(Self { frame, scale, information, source: Source::Logs })
     }
@@ -58,6 +59,7 @@ impl Known {
                 reach: each(|u| u.half),
                 resolution: vec![0.0; usable.len()],
                 trial_gaps: shaped.trial_gaps.clone(),
+                trial_lateness_s: shaped.trial_lateness_s,
             },
             scale: scale_of_limits(&shaped.robot),
             information: layout.no_information(),

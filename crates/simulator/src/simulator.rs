@@ -41,6 +41,7 @@ pub struct Simulator {
     steps_per_period: usize,
     steps: i64,
     needs_load: bool,
+    goal_delay_s: f64,
     command: Option<Vec<f64>>,
     tau: Vec<f64>,
     efforts: Efforts,
@@ -101,6 +102,7 @@ impl Simulator {
             joints,
             arm,
             needs_load,
+            goal_delay_s: effects.iter().map(|e| e.goal_delay_s()).sum(),
             effects,
             sensors,
             steps_per_period: stepping.steps_per_period.max(1),
@@ -158,6 +160,11 @@ impl Simulator {
             }
             self.command = Some(command.clone());
         }
+    }
+
+    /// Time by which goals reach the controller late (s), the sum over all effects.
+    pub(crate) fn goal_delay_s(&self) -> f64 {
+        self.goal_delay_s
     }
 
     /// Apparent inertia of each joint at its present position, other joints free, rotor included

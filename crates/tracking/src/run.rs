@@ -56,6 +56,7 @@ fn channels(rows: &TrackingRows, joint: usize, name: &str) -> Channels {
         desired_acceleration: Some(signal(Signal::QddRef)),
         commanded_effort: Some(signal(Signal::Command)),
         link_position: rows.knows_links().then(|| signal(Signal::Link)),
+        goal_effort: None,
     }
 }
 

@@ -79,7 +79,8 @@ impl Design {
     /// Evaluates every hypothesis about a robot with trial shapes along the prepared runs.
     pub fn of_shaped(shaped: &ShapedRobot, log: &Log) -> Result<Self, LogError> {
         let trial_gaps = shaped.trial_gaps.clone();
-        let frame = Frame { trial_gaps, ..Frame::of_logs(log.prepared) };
+        let trial_lateness_s = shaped.trial_lateness_s;
+        let frame = Frame { trial_gaps, trial_lateness_s, ..Frame::of_logs(log.prepared) };
         Self::within(frame, &shaped.robot, log, &hypotheses_of(&shaped.robot, log))
     }
 

@@ -6,6 +6,8 @@
 
 pub(crate) mod design;
 pub(crate) mod evaluated;
+pub(crate) mod late_goals;
+pub(crate) mod linear_rest;
 pub(crate) mod prior;
 pub(crate) mod readings;
 pub(crate) mod repeats;

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use robot::{Robot, TorqueSource};
 
 use crate::columns::design::Design;
-use crate::columns::shapes::LinearRest;
+use crate::columns::linear_rest::LinearRest;
 use crate::regression::noise::integrated_time;
 use crate::signals::along::Along;
 use crate::signals::limit::Limit;

@@ -26,3 +26,20 @@ pub(crate) fn words_for_hold(robot: &Robot, extended: &Robot, row_s: f64) -> Opt
         )
     })
 }
+
+/// How much of the lateness of goals may be the time for which they are held, where a delay was found and the description does
+/// not say how long that is.
+pub(crate) fn words_for_goals(robot: &Robot, extended: &Robot, row_s: f64) -> Option<String> {
+    let (first, found) = robot.links().first().zip(extended.links().first())?;
+    let (delay_s, hold_s) = (found.actuator.goal_delay_s, 0.5 * row_s);
+    let is_new = (delay_s - first.actuator.goal_delay_s).abs() > 0.0;
+    (is_new && delay_s >= hold_s && first.actuator.goal_hold_s.is_none()).then(|| {
+        format!(
+            "of the goal delay of {:.2} ms, {:.2} ms are the hold where each goal is kept until the next row, and {:.2} ms \
+             the delay itself: state goal_hold_hz in effort_source of robot.toml",
+            1e3 * delay_s,
+            1e3 * hold_s,
+            1e3 * (delay_s - hold_s)
+        )
+    })
+}

@@ -1,5 +1,5 @@
 use effects::{EffectColumn, Encoders, Frame, RunMotion};
-use logs::{LogError, LowPass, PreparedJoint, PreparedRun, decimate};
+use logs::{GoalEffort, LogError, LowPass, PreparedJoint, PreparedRun, decimate};
 use nalgebra::Complex;
 use rayon::prelude::*;
 use robot::Robot;
@@ -75,9 +75,15 @@ impl<'a> Along<'a> {
             let link = j.link.as_ref()?;
             Some([&link.q, &link.qd, &link.qdd].map(|x| decimate(x, first)))
         };
+        let goal_effort = |j: &PreparedJoint| {
+            let goal = j.goal_effort.as_ref()?;
+            let values = decimate(&goal.values[goal.lead % first..], first);
+            Some(GoalEffort { values, lead: goal.lead / first, ..*goal })
+        };
         let encoders = Encoders {
             reported: [signals(|j| &j.wide.q), signals(|j| &j.wide.qd), signals(|j| &j.wide.qdd)],
             links: run.joints.iter().map(link).collect(),
+            goal_efforts: run.joints.iter().map(goal_effort).collect(),
             since_cold_s: run.time.first().map_or(0.0, |first| first - run.session_start_s),
         };
         let motion = RunMotion::from_encoders(robot, frame, encoders, rate.recip());

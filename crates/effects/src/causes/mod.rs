@@ -8,6 +8,7 @@ pub(crate) mod counterbalance;
 pub(crate) mod differential_coupling;
 pub(crate) mod encoder_offset;
 pub(crate) mod friction_temperature_drift;
+pub(crate) mod goal_delay;
 pub(crate) mod gravity_direction;
 pub(crate) mod inertial_parameters;
 pub(crate) mod joint_elasticity;

@@ -42,7 +42,7 @@ pub(crate) fn is_measured(drive: &Actuator) -> bool {
 
 /// `x` at `steps` samples later, by cubics through the samples with the slopes of
 /// [`differentiate`] there; the first and the last sample are held.
-fn shift(x: &[f64], steps: f64) -> Vec<f64> {
+pub(crate) fn shift(x: &[f64], steps: f64) -> Vec<f64> {
     let rate = differentiate(x, 1.0);
     let sample = |i: i64| x[i.clamp(0, x.len() as i64 - 1) as usize];
     let slope = |i: i64| usize::try_from(i).ok().and_then(|i| rate.get(i)).map_or(0.0, |r| *r);

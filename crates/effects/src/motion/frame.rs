@@ -15,6 +15,8 @@ pub struct Frame {
     /// Trial gap of each joint (rad or m), about which the column of a drive without a gap is taken; 0 where none is set.
     /// [`ShapedRobot`](crate::ShapedRobot) has the best ones.
     pub trial_gaps: Vec<f64>,
+    /// Trial time by which goals are later than described (s), about which its column is taken; 0 for none.
+    pub trial_lateness_s: f64,
 }
 
 impl Frame {
@@ -26,7 +28,7 @@ impl Frame {
             spans.map(|(low, high)| (0.5 * (low + high), 0.5 * (high - low))).unzip();
         let resolution = logs.noise.iter().map(|noise| resolution(noise, logs.cutoff_hz)).collect();
         let trial_gaps = vec![0.0; rest_speed.len()];
-        Self { rest_speed, centre, reach, resolution, trial_gaps }
+        Self { rest_speed, centre, reach, resolution, trial_gaps, trial_lateness_s: 0.0 }
     }
 }
 

@@ -1,6 +1,6 @@
 use std::sync::OnceLock;
 
-use logs::differentiate;
+use logs::{GoalEffort, differentiate};
 use robot::{Actuator, Robot, SensingSide};
 
 use crate::column::{ColumnPart, EffectColumn, at_joint};
@@ -8,7 +8,7 @@ use crate::motion::cable_loop::Loop;
 use crate::motion::compliance::{Compliance, curvature, rate};
 use crate::motion::direction::{direction, stands};
 use crate::motion::drive::{bristles, motor_torque, warmth};
-use crate::motion::effort_timing::EffortTiming;
+use crate::motion::effort_timing::{EffortTiming, shift};
 use crate::motion::encoders::{Encoders, JointMotions};
 use crate::motion::frame::Frame;
 use crate::motion::rigid_bodies::{LinkRegressor, link_regressor, loads, tilt};
@@ -54,12 +54,16 @@ pub struct RunMotion {
     tilt: OnceLock<Vec<[Vec<f64>; 2]>>,
     /// Change of the load by a displacement of the links; filled at the first request.
     slopes: OnceLock<Slopes>,
+    /// Parts of the reported efforts that follow the goals, one entry a joint.
+    goal_efforts: Vec<Option<GoalEffort>>,
     /// The nominal robot.
     robot: Robot,
     /// The drives of the nominal robot.
     pub(crate) drives: Vec<Actuator>,
     /// Trial gap of each joint (rad or m); 0 where none is set.
     pub(crate) trial_gaps: Vec<f64>,
+    /// Trial time by which goals are later than described (s); 0 where none is set.
+    trial_lateness_s: f64,
     /// Load of the links along the measured motion; `None` where motors and links move as one.
     rigid_load: Option<Vec<Vec<f64>>>,
     /// One for each joint; `None` without a spring between its encoder and its link.
@@ -75,7 +79,10 @@ impl RunMotion {
     /// load   = Y pi + stiffness x + cubic x³ + loop + counterbalance(q_link),   x = q_link - rest
     /// torque = load + rotor_inertia qdd + viscous qd + dry friction
     /// effort(t) = transmission_ratio torque_gain torque(t + delay - skew) + torque_offset
+    ///             + kp (goal(t) - goal(t - lateness))
     /// ```
+    ///
+    /// The last term is that of efforts which are computed from goals, where these are later than described.
     ///
     /// Twist and play lie between motor and link: `theta - q = load / elasticity + x`,
     /// `|x| <= backlash / 2`.
@@ -85,7 +92,8 @@ impl RunMotion {
     /// When the signals do not have one entry a joint of equal length.
     pub fn new(robot: &Robot, frame: &Frame, reading: [Vec<Vec<f64>>; 3], period_s: f64) -> Self {
         let links = vec![None; robot.joint_count()];
-        let encoders = Encoders { reported: reading, links, since_cold_s: 0.0 };
+        let goal_efforts = vec![None; robot.joint_count()];
+        let encoders = Encoders { reported: reading, links, goal_efforts, since_cold_s: 0.0 };
         Self::from_encoders(robot, frame, encoders, period_s)
     }
 
@@ -98,7 +106,7 @@ impl RunMotion {
     pub fn from_encoders(robot: &Robot, frame: &Frame, encoders: Encoders, period_s: f64) -> Self {
         let joints = robot.joint_count();
         let drives: Vec<Actuator> = robot.links().iter().map(|l| l.actuator.clone()).collect();
-        let Encoders { reported, links, since_cold_s } = encoders;
+        let Encoders { reported, links, goal_efforts, since_cold_s } = encoders;
         let qd_reported = reported[1].clone();
         let Deflection { motor, link, rigid_load, compliances } =
             Deflection::new(robot, correct_reading(robot, reported), links, period_s);
@@ -127,9 +135,11 @@ impl RunMotion {
             link,
             tilt: OnceLock::new(),
             slopes: OnceLock::new(),
+            goal_efforts,
             robot: robot.clone(),
             drives,
             trial_gaps: frame.trial_gaps.clone(),
+            trial_lateness_s: frame.trial_lateness_s,
             rigid_load,
             compliances,
         };
@@ -186,6 +196,48 @@ impl RunMotion {
             let timed = self.with_timing(i, scaled);
             self.effort[i] = timed.into_iter().map(|effort| effort + a.torque_offset).collect();
         }
+        self.add_late_goals();
+    }
+
+    /// Adds what the reported efforts have of goals that are followed later than described.
+    fn add_late_goals(&mut self) {
+        for i in 0..self.drives.len() {
+            let lateness_s = self.goal_lateness_s(i);
+            let Some(late) = self.late_goals(i, lateness_s).filter(|_| lateness_s.abs() > 0.0)
+            else {
+                continue;
+            };
+            self.effort[i].iter_mut().zip(late).for_each(|(effort, late)| *effort += late);
+        }
+    }
+
+    /// Time by which the goals of joint `j` are later in this robot than in the reported effort (s).
+    fn goal_lateness_s(&self, j: usize) -> f64 {
+        let reported_s = self.goal_efforts[j].as_ref().map_or(0.0, |goal| goal.delay_s);
+        self.drives[j].goal_delay_s - reported_s
+    }
+
+    /// What the reported effort of joint `j` has of goals that are followed `lateness_s` later, `kp (goal(t) - goal(t - lateness))`;
+    /// `None` where the effort is logged.
+    pub fn late_goals(&self, j: usize, lateness_s: f64) -> Option<Vec<f64>> {
+        let GoalEffort { values, lead, .. } = self.goal_efforts[j].as_ref()?;
+        let followed = shift(values, -lateness_s / self.period_s);
+        let late = values.iter().zip(followed).map(|(goal, followed)| goal - followed);
+        Some(late.skip(*lead).collect())
+    }
+
+    /// Change of the reported effort of joint `j` per second by which its goals are followed later: `kp d(goal)/dt`, or the mean
+    /// of that over the trial time of a robot without a delay. `None` where the effort is logged.
+    pub(crate) fn late_goal_part(&self, j: usize) -> Option<ColumnPart> {
+        let GoalEffort { values, lead, .. } = self.goal_efforts[j].as_ref()?;
+        let (lateness_s, trial_s) = (self.goal_lateness_s(j), self.trial_lateness_s);
+        let values = if lateness_s.abs() > 0.0 || trial_s <= 0.0 {
+            let followed = shift(values, -lateness_s / self.period_s);
+            differentiate(&followed, self.period_s.recip()).split_off(*lead)
+        } else {
+            self.late_goals(j, trial_s)?.into_iter().map(|late| late / trial_s).collect()
+        };
+        Some(ColumnPart { joint: j, values })
     }
 
     /// Warm-up of the drive of joint `i` in sample `t`: 0 cold, 1 warm.

@@ -193,8 +193,8 @@ impl<'a> Plan<'a> {
         for (channel, source) in sources {
             channels.set(*channel, source.take(&table.columns));
         }
-        if let Some(gain) = link.actuator.position_loop.filter(|_| self.is_effort_computed) {
-            channels.effort = position_loop::effort(gain, time, &channels);
+        if self.is_effort_computed {
+            position_loop::compute_effort(&link.actuator, time, &mut channels);
         }
         channels
     }

@@ -160,8 +160,7 @@ fn read_open_log(
     }
     if plan.is_effort_computed {
         for (link, channels) in robot.links().iter().zip(&mut joints) {
-            let Some(gain) = link.actuator.position_loop else { continue };
-            channels.effort = position_loop::effort(gain, &time, channels);
+            position_loop::compute_effort(&link.actuator, &time, channels);
         }
         mended.push(Repair::FromPositionLoop);
     }

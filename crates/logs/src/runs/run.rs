@@ -51,6 +51,27 @@ pub struct Channels {
     pub commanded_effort: Option<Vec<f64>>,
     /// Position of the link from a second encoder (rad or m); `position` is then that of the motor.
     pub link_position: Option<Vec<f64>>,
+    /// Part of the effort that follows the goal, where efforts are computed from goals.
+    pub goal_effort: Option<GoalEffort>,
+}
+
+/// The part `kp goal(t - delay)` of an effort that is computed from goals.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GoalEffort {
+    /// Its samples (N·m or N), `lead` of them before the first sample of the run.
+    pub values: Vec<f64>,
+    /// Number of samples before the first one of the run, from which later goals are known.
+    pub lead: usize,
+    /// The delay with which it was computed, that of the robot's description (s).
+    pub delay_s: f64,
+}
+
+impl GoalEffort {
+    /// The same with other samples.
+    #[must_use]
+    pub fn map(&self, change: impl FnOnce(&[f64]) -> Vec<f64>) -> Self {
+        Self { values: change(&self.values), ..*self }
+    }
 }
 
 impl Run {
@@ -84,6 +105,7 @@ impl Run {
             desired_acceleration: some(&c.desired_acceleration),
             commanded_effort: some(&c.commanded_effort),
             link_position: some(&c.link_position),
+            goal_effort: c.goal_effort.as_ref().map(|goal| goal.map(|x| keep(&x.to_vec()))),
         };
         Self {
             name: self.name.clone(),

@@ -202,8 +202,14 @@ mod tests {
     #[test]
     fn positions_whose_differences_are_no_numbers_end_nothing() {
         let q = (0..400).map(|k| if k % 2 == 0 { 1.7e308 } else { -1.7e308 }).collect();
-        let joint =
-            UniformJoint { q, effort: vec![], velocity: None, acceleration: None, link: None };
+        let joint = UniformJoint {
+            q,
+            effort: vec![],
+            velocity: None,
+            acceleration: None,
+            link: None,
+            goal_effort: None,
+        };
         velocity(&joint, 1000.0, &mut FourierTransform::default());
     }
 }

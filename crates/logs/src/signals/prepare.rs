@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 #[cfg(doc)]
 use crate::signals::{
     agreement::Agreement, differentiate::differentiate, filter::LowPass, noise::JointNoise,
@@ -5,7 +7,12 @@ use crate::signals::{
 use crate::{
     checks::saturation::saturation,
     error::LogError,
-    runs::{duplicate::duplicate_of, repair::Repair, run::Run, session::session_starts},
+    runs::{
+        duplicate::duplicate_of,
+        repair::Repair,
+        run::{GoalEffort, Run},
+        session::session_starts,
+    },
     signals::{
         choice::choose,
         clock::Fill,
@@ -107,7 +114,7 @@ fn keep_long_pieces(
 }
 
 fn cut_ends((session_start_s, piece, filtered): (f64, UniformRun, FilteredRun)) -> PreparedRun {
-    let kept = filtered.settled_range();
+    let (kept, rate_hz) = (filtered.settled_range(), piece.rate_hz);
     let cut = |x: Vec<f64>| x[kept.clone()].to_vec();
     let joints = piece
         .joints
@@ -125,10 +132,21 @@ fn cut_ends((session_start_s, piece, filtered): (f64, UniformRun, FilteredRun)) 
             qdd: cut(f.own.qdd),
             wide: Wide { q: cut(f.wide.q), qd: cut(f.wide.qd), qdd: cut(f.wide.qdd) },
             effort: cut(raw.effort),
+            goal_effort: raw.goal_effort.map(|goal| with_lead(goal, &kept, rate_hz)),
         })
         .collect();
     let time = cut(piece.time);
     PreparedRun { name: piece.name, rate_hz: piece.rate_hz, time, session_start_s, joints }
+}
+
+/// Longest time by which goals may be late (s), for which samples before the first one are kept.
+const LONGEST_LATENESS_S: f64 = 0.3;
+
+/// The kept samples, and those before them.
+fn with_lead(goal: GoalEffort, kept: &Range<usize>, rate_hz: f64) -> GoalEffort {
+    let lead = kept.start.min((LONGEST_LATENESS_S * rate_hz).ceil() as usize);
+    let values = goal.values[kept.start - lead..kept.end].to_vec();
+    GoalEffort { values, lead, ..goal }
 }
 
 /// Leaves out the second encoder of a joint where some runs lack it.

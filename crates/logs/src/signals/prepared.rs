@@ -1,7 +1,7 @@
 use std::ops::Range;
 
 use crate::{
-    runs::run::Run,
+    runs::run::{GoalEffort, Run},
     signals::{cutoff::MULTIPLE, noise::JointNoise, uniform::MOVING_SHARE, warning::LogWarning},
 };
 
@@ -53,6 +53,8 @@ pub struct PreparedJoint {
     pub effort: Vec<f64>,
     /// Motion of the link, where every run has a second encoder.
     pub link: Option<PreparedLink>,
+    /// Part of the effort that follows the goal, where efforts are computed from goals; not low-passed.
+    pub goal_effort: Option<GoalEffort>,
 }
 
 /// Motion low-passed at four times the cut-off of the other signals. A model computes effort from this motion, and that
@@ -155,7 +157,7 @@ impl PreparedJoint {
     /// A joint with exact motion and without a second encoder. No low-pass is applied.
     pub fn exact([q, qd, qdd]: [Vec<f64>; 3], effort: Vec<f64>) -> Self {
         let wide = Wide { q: q.clone(), qd: qd.clone(), qdd: qdd.clone() };
-        Self { q, qd, qdd, wide, effort, link: None }
+        Self { q, qd, qdd, wide, effort, link: None, goal_effort: None }
     }
 }
 
@@ -176,6 +178,10 @@ impl PreparedRun {
                 qd: part(&link.qd),
                 qdd: part(&link.qdd),
                 twist: part(&link.twist),
+            }),
+            goal_effort: j.goal_effort.as_ref().map(|goal| {
+                let samples = samples.start..samples.end + goal.lead;
+                goal.map(|x| x[samples].to_vec())
             }),
         };
         Self {

@@ -69,6 +69,7 @@ mod tests {
             wide: Wide { qd: wide, ..Wide::default() },
             effort: vec![0.0; times.len()],
             link: None,
+            goal_effort: None,
             qd,
         };
         let run = PreparedRun {

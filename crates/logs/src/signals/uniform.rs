@@ -1,6 +1,6 @@
 use crate::{
     error::LogError,
-    runs::run::{Channel, Run, range},
+    runs::run::{Channel, GoalEffort, Run, range},
     signals::clock::{Fill, Piece, pieces},
 };
 
@@ -27,6 +27,8 @@ pub(crate) struct UniformJoint {
     pub acceleration: Option<Vec<f64>>,
     /// Position of the link.
     pub link: Option<Vec<f64>>,
+    /// Part of the effort that follows the goal.
+    pub goal_effort: Option<GoalEffort>,
 }
 
 impl UniformRun {
@@ -61,6 +63,7 @@ fn resample(run: &Run, index: usize, name: String, piece: &Piece) -> UniformRun 
             velocity: joint.velocity.as_deref().map(read),
             acceleration: joint.acceleration.as_deref().map(read),
             link: joint.link_position.as_deref().map(read),
+            goal_effort: joint.goal_effort.as_ref().map(|goal| goal.map(read)),
         })
         .collect();
     let deviation_s = (!piece.is_uniform).then_some(piece.deviation_s);

@@ -16,7 +16,8 @@ const STRENGTHS: [f64; 2] = [0.4, 25.0];
 
 /// Kinds that can be hidden in an arm: all of the catalogue with these exceptions. Everyday friction is in
 /// every arm, rotors may be missing in the nominal model anyway, and a saturated drive makes the controller
-/// lose the arm. The friction of a differential and a counterbalance need an arm that has one.
+/// lose the arm. The friction of a differential and a counterbalance need an arm that has one, and late goals are those of
+/// servos.
 fn kinds(class: ArmClass) -> Vec<EffectKind> {
     use EffectKind as K;
     let left_out = |kind: &EffectKind| {
@@ -27,6 +28,7 @@ fn kinds(class: ArmClass) -> Vec<EffectKind> {
                 | K::RotorInertia
                 | K::TorqueSaturation
                 | K::Counterbalance
+                | K::GoalDelay
         ) || (*kind == K::DifferentialCoupling && class != ArmClass::Wam)
     };
     EffectKind::ALL.into_iter().filter(|kind| !left_out(kind)).collect()

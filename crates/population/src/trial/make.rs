@@ -14,10 +14,9 @@ use crate::corner::{Corner, Origin};
 use crate::error::PopulationError;
 use crate::hidden::HiddenThings;
 use crate::oracle::motion::SeenRun;
-use crate::oracle::noise::OracleNoise;
 use crate::oracle::runs::{HELD_OUT, in_steps_of, scenario_of};
 use crate::robot_files::RobotFiles;
-use crate::sheet::{Knowledge, TrueStranger, TruthSheet};
+use crate::sheet::{Knowledge, TruthSheet};
 use crate::spec::PopulationSpec;
 use crate::text_file::write_text;
 use crate::trial::background::{Friction, draw_friction, effects};
@@ -281,9 +280,12 @@ impl Draft {
         let effects = [self.friction(), hidden.causes.clone()].concat();
         let held_out =
             simulate_noise_free(&scenario, &|name| name == HELD_OUT, &effects, &hidden.strangers)?;
-        let Seen { runs, noise, clean, scales, causes, mut strangers } = seen;
+        let Seen { runs, noise, clean, scales, mut causes, mut strangers } = seen;
         let known = (&noise[..], &scales[..]);
-        strangers.extend(self.true_strangers(&clean, known, damage.as_ref()));
+        causes
+            .extend(self.log.servo.and_then(|servo| servo.late_goals(&self.truth, &clean, known)));
+        let robot = &self.truth.robot;
+        strangers.extend(damage.iter().map(|d| d.true_stranger(robot, &clean, &scales)));
         strangers.extend(self.faults.strangers(&self.truth.robot, &runs, &scales));
         self.faults.spoil(&mut noisy.runs);
         let corner = self.corner(&noisy.runs, damage.as_ref());
@@ -304,18 +306,6 @@ impl Draft {
         write_text(&folder.join("truth").join("scenario.toml"), &self.portable(&scenario))?;
         sheet.write(folder)?;
         Ok(sheet)
-    }
-
-    /// What is strange about the logs; `clean` are those without noise.
-    fn true_strangers(
-        &self,
-        clean: &[Run],
-        known: (&[OracleNoise], &[f64]),
-        damage: Option<&LogDamage>,
-    ) -> Vec<TrueStranger> {
-        let late = self.log.servo.map(|servo| servo.late_goals(&self.truth, clean, known));
-        let spoilt = damage.map(|d| d.true_stranger(&self.truth.robot, clean, known.1));
-        late.into_iter().chain(spoilt).collect()
     }
 
     /// The logs and the held-out log as they are written: spoilt, as their description may be, and with their rows.

@@ -1,7 +1,9 @@
+use catalogue::EffectKind;
 use logs::{Channel, Run};
 use nalgebra::DMatrix;
 use rand_chacha::ChaCha8Rng;
 use robot::{Loaded, PdGain, Robot};
+use simulator::Truth;
 use simulator::effects::{EffectSpec, TorqueConstant, TorqueSaturation};
 use simulator::scenario::{Logged, SensorSpec, ServoSpec};
 use simulator::{EffortSource, VelocitySource};
@@ -17,7 +19,7 @@ use crate::oracle::noise::OracleNoise;
 use crate::oracle::regression::strengths;
 use crate::oracle::stand_ins::stand_ins;
 use crate::robot_files::RobotFiles;
-use crate::sheet::{Strength, TrueStranger};
+use crate::sheet::{CauseRole, Strength, TrueCause};
 use crate::spec::ServoShareSpec;
 
 /// Rates at which goals are sent (Hz), before they become a whole part of the controller's.
@@ -33,9 +35,6 @@ const OFF: [f64; 2] = [0.5, 0.05];
 /// of the limit ([`fit`](crate::arms::drives::fit)).
 const CLIPPED: f64 = 0.3;
 const CLIP: [f64; 2] = [0.4, 0.8];
-
-/// The name of goals that come late among the strangers of a sheet.
-const LATE_GOALS: &str = "servo: late goals";
 
 /// The servos of an arm, which log goals and positions alone.
 ///
@@ -89,7 +88,7 @@ impl ServoDraw {
             effort_resolution_nm: Default::default(),
             ..bench.sensors.clone()
         };
-        let source = effort_source(&gains(&loaded));
+        let source = effort_source(&gains(&loaded), goal_hz);
         for files in [&mut bench.truth, &mut bench.nominal] {
             state(files, &source);
         }
@@ -112,7 +111,7 @@ impl ServoDraw {
             let gain = round_to_digits(1.0 + OFF[1] * between(random, [-1.0, 1.0]), 4);
             let limit = link.joint.limits.effort.filter(|_| self.is_clipped && j == clipped.0);
             let clip = limit.map(|limit| round_to_digits(clipped.1 * limit, 3));
-            let constant = !has(catalogue::EffectKind::TorqueConstant, &joint);
+            let constant = !has(EffectKind::TorqueConstant, &joint);
             if self.is_off && constant {
                 let effect = TorqueConstant { joint: joint.clone(), gain };
                 hidden.causes.push(EffectSpec::TorqueConstant(effect));
@@ -124,11 +123,11 @@ impl ServoDraw {
         }
     }
 
-    /// The lateness of the goals in the sheet: what the loop with the goals of the log leaves beyond the loop with
-    /// those that the servos follow, a mean over the time of a row.
+    /// The lateness of the goals in the sheet: what the loop with goals that come at once leaves beyond the loop with those
+    /// that the servos follow, both means over the time of a row. `None` where they come at once.
     ///
     /// ```text
-    /// torque = kp (goal(t_k) - mean over t_k -+ T / 2 of goal(t - delay))
+    /// torque = kp mean over t_k -+ T / 2 of (goal(t) - goal(t - delay))
     /// ```
     ///
     /// `clean` are the logs without noise.
@@ -137,7 +136,10 @@ impl ServoDraw {
         truth: &Loaded,
         clean: &[Run],
         (noise, scales): (&[OracleNoise], &[f64]),
-    ) -> TrueStranger {
+    ) -> Option<TrueCause> {
+        if self.delay_ms <= 0.0 {
+            return None;
+        }
         let robot = &truth.robot;
         let runs: Vec<SeenRun> = clean.iter().map(|run| SeenRun::new(robot, run)).collect();
         let gains = gains(truth);
@@ -145,9 +147,10 @@ impl ServoDraw {
             let mut late = run.clone();
             for (joint, gain) in late.joints.iter_mut().zip(&gains) {
                 let goal = joint.desired_position.as_deref().unwrap_or(&joint.position);
-                let followed = late_mean(&run.time, goal, 1e-3 * self.delay_ms);
-                joint.effort =
-                    goal.iter().zip(followed).map(|(goal, mean)| gain.kp * (goal - mean)).collect();
+                let [sent, followed] =
+                    [0.0, 1e-3 * self.delay_ms].map(|late_s| late_mean(&run.time, goal, late_s));
+                let late = sent.iter().zip(followed);
+                joint.effort = late.map(|(sent, followed)| gain.kp * (sent - followed)).collect();
             }
             SeenRun::thin(robot, &late, seen.thinned).effort
         };
@@ -157,7 +160,8 @@ impl ServoDraw {
             std::iter::once(own).chain(stand_ins(robot, &runs)).collect();
         let none = Strength { sigmas: 0.0, share: 0.0, torque: 0.0 };
         let strength = strengths(&runs, &columns, 1, noise, scales).pop().unwrap_or(none);
-        TrueStranger { name: LATE_GOALS.to_owned(), joint: None, strength, spoiling: None }
+        let truth = Truth::everywhere(EffectKind::GoalDelay, &[("delay", 1e-3 * self.delay_ms)]);
+        Some(TrueCause { role: CauseRole::Hidden, truth, strength })
     }
 
     /// The noise-free held-out log with the goals that the servos follow, so that the loop of the stated gains tells
@@ -223,12 +227,12 @@ fn random_joint(robot: &Robot, random: &mut ChaCha8Rng) -> usize {
     ((between(random, [0.0, 1.0]) * count as f64) as usize).min(count.saturating_sub(1))
 }
 
-/// The key of `robot.toml` with the gains of the loops.
-fn effort_source(gains: &[PdGain]) -> String {
+/// The key of `robot.toml` with the gains of the loops and the rate of the goals.
+fn effort_source(gains: &[PdGain], goal_hz: f64) -> String {
     let [kp, kd] = [|gain: &PdGain| gain.kp, |gain: &PdGain| gain.kd]
         .map(|of| gains.iter().map(of).collect::<Vec<f64>>());
     format!(
-        "effort_source = {{ position_loop = {{ kp_nm_per_rad = {kp:?}, kd_nm_s_per_rad = {kd:?} }} }}\n"
+        "effort_source = {{ position_loop = {{ kp_nm_per_rad = {kp:?}, kd_nm_s_per_rad = {kd:?}, goal_hold_hz = {goal_hz:?} }} }}\n"
     )
 }
 

@@ -66,8 +66,26 @@ pub(crate) struct GainEntry {
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum EffortSourceEntry {
-    /// `{ position_loop = { kp_nm_per_rad = [...], kd_nm_s_per_rad = [...] } }`
-    PositionLoop(GainEntry),
+    /// `{ position_loop = { kp_nm_per_rad = [...], kd_nm_s_per_rad = [...], goal_hold_hz = ... } }`
+    PositionLoop(PositionLoopEntry),
+}
+
+/// `position_loop`: gains with one entry per joint, in the order of the robot, and the rate at which goals are renewed.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PositionLoopEntry {
+    pub kp_nm_per_rad: Vec<f64>,
+    pub kd_nm_s_per_rad: Vec<f64>,
+    /// Rate at which goals are renewed, each held until the next one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub goal_hold_hz: Option<f64>,
+}
+
+impl PositionLoopEntry {
+    fn gains(&self) -> GainEntry {
+        let Self { kp_nm_per_rad, kd_nm_s_per_rad, .. } = self.clone();
+        GainEntry { kp_nm_per_rad, kd_nm_s_per_rad }
+    }
 }
 
 /// `[link.<name>]`
@@ -126,10 +144,14 @@ impl Description {
         loaded.control.differentials = self.pairs(loaded)?;
         if let Some(EffortSourceEntry::PositionLoop(entry)) = &self.effort_source {
             let site = root.key("effort_source").key("position_loop");
-            let gains = entry.gains(&site, loaded.robot.joint_count())?;
+            let gains = entry.gains().gains(&site, loaded.robot.joint_count())?;
+            if let Some(hold_hz) = entry.goal_hold_hz {
+                in_range(&site, "goal_hold_hz", hold_hz, Range::Positive)?;
+            }
             for (index, gain) in gains.into_iter().enumerate() {
                 if let Some(link) = loaded.robot.link_mut(index) {
                     link.actuator.position_loop = Some(gain);
+                    link.actuator.goal_hold_s = entry.goal_hold_hz.map(f64::recip);
                 }
             }
         }

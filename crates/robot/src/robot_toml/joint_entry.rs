@@ -75,6 +75,9 @@ pub(crate) struct JointEntry {
     /// Time by which the log has effort later than position.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub effort_skew_ms: Option<f64>,
+    /// Time from the row of a goal to the position loop.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub goal_delay_ms: Option<f64>,
     /// Largest torque; `inf` where the URDF's limit does not hold.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torque_limit_nm: Option<f64>,
@@ -276,6 +279,7 @@ impl JointEntry {
             ("actuator_delay_ms", self.actuator_delay_ms, NotNegative, &mut a.delay_s),
             ("actuator_lag_ms", self.actuator_lag_ms, NotNegative, &mut a.lag_s),
             ("effort_skew_ms", self.effort_skew_ms, Finite, &mut a.effort_skew_s),
+            ("goal_delay_ms", self.goal_delay_ms, NotNegative, &mut a.goal_delay_s),
         ] {
             if let Some(value_ms) = value_ms {
                 in_range(site, key, value_ms, range)?;

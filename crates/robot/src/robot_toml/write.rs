@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use crate::error::RobotError;
 use crate::loaded::Loaded;
 use crate::robot_toml::description::{
-    Description, EffortSourceEntry, GainEntry, InertiaEntry, LinkEntry,
+    Description, EffortSourceEntry, GainEntry, InertiaEntry, LinkEntry, PositionLoopEntry,
 };
 use crate::robot_toml::file::DescriptionFile;
 use crate::robot_toml::joint_entry::{
@@ -80,9 +80,13 @@ fn gain_entry(gains: &[PdGain]) -> GainEntry {
 /// The position loop. Either all joints have one or none.
 fn effort_source(robot: &Robot) -> Option<EffortSourceEntry> {
     let gains = robot.links().iter().map(|link| link.actuator.position_loop);
-    gains
-        .collect::<Option<Vec<PdGain>>>()
-        .map(|gains| EffortSourceEntry::PositionLoop(gain_entry(&gains)))
+    gains.collect::<Option<Vec<PdGain>>>().map(|gains| {
+        let GainEntry { kp_nm_per_rad, kd_nm_s_per_rad } = gain_entry(&gains);
+        let hold_s = robot.links().first().and_then(|link| link.actuator.goal_hold_s);
+        let goal_hold_hz = hold_s.map(f64::recip);
+        let entry = PositionLoopEntry { kp_nm_per_rad, kd_nm_s_per_rad, goal_hold_hz };
+        EffortSourceEntry::PositionLoop(entry)
+    })
 }
 
 /// Refuses a change for which `robot.toml` has no key.
@@ -138,6 +142,7 @@ fn joint_entry(new: &Link, old: &Link, names: &[&str], gain: Option<PdGain>) -> 
         presliding_damping_nm_s_per_rad: a.presliding_damping,
         actuator_lag_ms: changed_number(a.lag_s, b.lag_s).map(milliseconds),
         effort_skew_ms: changed_number(a.effort_skew_s, b.effort_skew_s).map(milliseconds),
+        goal_delay_ms: changed_number(a.goal_delay_s, b.goal_delay_s).map(milliseconds),
         encoder_offset_rad: changed_number(a.encoder_offset, b.encoder_offset),
         transmission_ratio: changed_number(a.transmission_ratio, b.transmission_ratio),
         torque_limit_nm: changed_number(

@@ -229,9 +229,13 @@ pub struct Actuator {
     pub sensing: SensingSide,
     /// What the log's effort is.
     pub torque_source: TorqueSource,
-    /// Gains from which missing efforts are computed, `effort = kp (goal - q) - kd qd`; `None` where
+    /// Gains from which missing efforts are computed, `effort = kp (goal(t - goal delay) - q) - kd qd`; `None` where
     /// efforts are logged.
     pub position_loop: Option<PdGain>,
+    /// Time from the row of a goal to the position loop (s), where efforts are computed from goals.
+    pub goal_delay_s: f64,
+    /// Time for which the position loop holds a goal (s); `None` where goals count as followed when they are logged.
+    pub goal_hold_s: Option<f64>,
 }
 
 impl Actuator {
@@ -303,6 +307,8 @@ impl Default for Actuator {
             sensing: SensingSide::default(),
             torque_source: TorqueSource::default(),
             position_loop: None,
+            goal_delay_s: 0.0,
+            goal_hold_s: None,
         }
     }
 }

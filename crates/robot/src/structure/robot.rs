@@ -136,6 +136,7 @@ fn finite_link(link: &Link) -> Result<(), RobotError> {
         a.load_friction,
         a.lag_s,
         a.effort_skew_s,
+        a.goal_delay_s,
         a.encoder_offset,
         a.transmission_ratio,
     ];

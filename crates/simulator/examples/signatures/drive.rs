@@ -2,11 +2,12 @@ use std::f64::consts::TAU;
 
 use nalgebra::Complex;
 use simulator::effects::{
-    ActuatorDelay, ActuatorLag, TorqueConstant, TorqueOffset, TorqueRipple, TorqueSaturation,
+    ActuatorDelay, ActuatorLag, GoalDelay, TorqueConstant, TorqueOffset, TorqueRipple,
+    TorqueSaturation,
 };
 
 use crate::panel::{Panel, Series, curve, linear, logarithmic, points, range, steps};
-use crate::record::{Record, frequencies, spectrum, velocity};
+use crate::record::{Record, frequencies, rate, spectrum, velocity};
 
 /// A window of the way, small enough for the periods to be seen.
 pub fn ripple(record: &Record, effect: &TorqueRipple) -> Panel {
@@ -121,5 +122,25 @@ pub fn delay(record: &Record, effect: &ActuatorDelay) -> Panel {
     Panel {
         note: format!("−2πf · {} ms", effect.delay_ms),
         ..phases("actuator delay", dots, |hz| -TAU * hz * delay_s)
+    }
+}
+
+/// The first joint follows its goals later.
+pub fn goal_delay(record: &Record, effect: &GoalDelay) -> Panel {
+    let delay_s = 1e-3 * effect.delay_ms;
+    let [with, without] = [&record.with, &record.without].map(|run| &run.joints[0].position);
+    let behind: Vec<f64> = without.iter().zip(with).map(|(on_time, late)| on_time - late).collect();
+    let slope = rate(&record.without.time, without);
+    let rows: Vec<usize> = (0..record.rows()).collect();
+    let dots = points(&rows, (&slope, 1.0), &behind);
+    let (low, high) = range(dots.iter().map(|p| p[0]));
+    Panel {
+        name: "goal delay",
+        note: format!("slope {} ms", effect.delay_ms),
+        x: linear("velocity (rad/s)"),
+        y: linear("position behind (rad)"),
+        with: Series::Dots(dots),
+        without: Vec::new(),
+        expected: vec![curve(&[low, high], |rate| delay_s * rate)],
     }
 }

@@ -54,6 +54,7 @@ const FAMILIES: [(&str, &[&str]); 5] = [
             "torque_saturation",
             "actuator_lag",
             "actuator_delay",
+            "goal_delay",
         ],
     ),
     (
@@ -104,6 +105,7 @@ fn panel(record: &Record) -> Panel {
         E::TorqueSaturation(effect) => drive::saturation(record, effect),
         E::ActuatorLag(effect) => drive::lag(record, effect),
         E::ActuatorDelay(effect) => drive::delay(record, effect),
+        E::GoalDelay(effect) => drive::goal_delay(record, effect),
         E::EncoderOffset(effect) => sensing::encoder_offset(record, effect),
         E::TransmissionRatio(effect) => sensing::ratio(record, effect),
         E::TimeSkew(effect) => sensing::skew(record, effect),

@@ -15,6 +15,7 @@ use crate::effects::differential_coupling::DifferentialCoupling;
 use crate::effects::encoder_offset::EncoderOffset;
 use crate::effects::external_disturbance::ExternalDisturbance;
 use crate::effects::friction_temperature_drift::FrictionTemperatureDrift;
+use crate::effects::goal_delay::GoalDelay;
 use crate::effects::gravity_direction::GravityDirection;
 use crate::effects::inertial_parameters::InertialParameters;
 use crate::effects::joint_elasticity::JointElasticity;

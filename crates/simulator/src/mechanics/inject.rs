@@ -124,6 +124,11 @@ pub trait Inject: Send {
     /// Changes the readings of the encoders at the links in the same row.
     fn on_record_links(&mut self, _time_s: f64, _links: &mut [Option<f64>]) {}
 
+    /// Time by which goals reach the controller late (s).
+    fn goal_delay_s(&self) -> f64 {
+        0.0
+    }
+
     /// Whether the effect needs [`Moment::load`], which costs a product with the mass matrix.
     fn needs_load(&self) -> bool {
         false

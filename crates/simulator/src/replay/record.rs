@@ -20,18 +20,23 @@ pub(crate) struct EncoderState {
 /// effort(t) = logged effort(t + skew)
 /// ```
 ///
-/// linear between samples; the first or last effort beyond the record.
+/// linear between samples; the first or last effort beyond the record. Of efforts computed from goals that are followed
+/// later than the log has them, less `kp (goal(t) - goal(t - lateness))`.
 pub(crate) fn with_efforts_in_time<'a>(
     robot: &Robot,
     record: &'a PreparedRun,
 ) -> Cow<'a, PreparedRun> {
-    let skews = || robot.links().iter().map(|link| link.actuator.effort_skew_s);
-    if skews().all(|skew_s| skew_s.abs() <= 0.0) {
+    let drives = || robot.links().iter().map(|link| &link.actuator).zip(&record.joints);
+    let is_in_time = |(drive, joint): (&Actuator, &PreparedJoint)| {
+        drive.effort_skew_s.abs() <= 0.0 && goal_lateness_s(drive, joint).abs() <= 0.0
+    };
+    if drives().all(is_in_time) {
         return Cow::Borrowed(record);
     }
     let mut record = record.clone();
-    for (joint, skew_s) in record.joints.iter_mut().zip(skews()) {
-        let late = skew_s * record.rate_hz;
+    for (joint, link) in record.joints.iter_mut().zip(robot.links()) {
+        without_late_goals(&link.actuator, joint, record.rate_hz);
+        let late = link.actuator.effort_skew_s * record.rate_hz;
         let last = joint.effort.len().saturating_sub(1);
         let at = |sample: usize| {
             let place = (sample as f64 + late).clamp(0.0, last as f64);
@@ -42,6 +47,28 @@ pub(crate) fn with_efforts_in_time<'a>(
         joint.effort = (0..joint.effort.len()).map(at).collect();
     }
     Cow::Owned(record)
+}
+
+/// Time by which goals are followed later than in the effort that was computed from them (s); 0 where it is logged.
+fn goal_lateness_s(drive: &Actuator, joint: &PreparedJoint) -> f64 {
+    joint.goal_effort.as_ref().map_or(0.0, |goal| drive.goal_delay_s - goal.delay_s)
+}
+
+/// Replaces the goal in an effort that was computed from goals by that which the loop follows.
+fn without_late_goals(drive: &Actuator, joint: &mut PreparedJoint, rate_hz: f64) {
+    let rows = goal_lateness_s(drive, joint) * rate_hz;
+    let Some(goal) = &joint.goal_effort else { return };
+    let last = goal.values.len().saturating_sub(1);
+    let at = |place: f64| {
+        let place = place.clamp(0.0, last as f64);
+        let (before, part) = (place as usize, place.fract());
+        let [a, b] = [goal.values[before], goal.values[(before + 1).min(last)]];
+        a + part * (b - a)
+    };
+    for (k, effort) in joint.effort.iter_mut().enumerate() {
+        let row = (goal.lead + k) as f64;
+        *effort += at(row - rows) - at(row);
+    }
 }
 
 /// The robot with the friction of its drives at the time of a sample, after that much warming.

@@ -90,7 +90,7 @@ pub(crate) fn follow(
 ) -> Result<Vec<ControlRow>, MachineFault> {
     let Following { gains, robot, run, servo, longest_s } = *following;
     let period_s = simulator.period_s();
-    let mut goals = Goals::new(&run.motion, servo);
+    let mut goals = Goals::new(&run.motion, servo, simulator.goal_delay_s());
     let reference = run.motion.at(0.0);
     let at_rest = reference.qd.iter().all(|qd| qd.abs() <= 1e-9);
     let lead_in = if at_rest { (run.lead_in_s / period_s).round() as usize } else { 0 };

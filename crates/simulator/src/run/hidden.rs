@@ -34,7 +34,10 @@ pub(crate) fn draw_hidden(scenario: &Scenario) -> Result<Vec<EffectSpec>, Simula
     if count == 0 {
         return Ok(Vec::new());
     }
-    let all = EffectKind::ALL.to_vec();
+    // Late goals change the motion, and a log shows them only where its efforts are computed from goals.
+    let has_goals = scenario.spec().control.servo.is_some();
+    let is_drawn = |kind: &EffectKind| has_goals || *kind != EffectKind::GoalDelay;
+    let all: Vec<EffectKind> = EffectKind::ALL.into_iter().filter(is_drawn).collect();
     let kinds = if hidden.from.is_empty() { &all } else { &hidden.from };
     let bench = EffectSizer::new(scenario)?;
     let mut drawn: Vec<EffectSpec> = Vec::with_capacity(count);

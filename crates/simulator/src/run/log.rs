@@ -76,6 +76,7 @@ pub(crate) fn log_of_rows(scenario: &Scenario, run: &ScenarioRun, rows: &[Contro
         desired_acceleration: follows_velocity.then(|| column(&|r| r.reference.qdd[i])),
         commanded_effort: (!asked_is_effort).then(|| column(&|r| r.command[i])),
         link_position: rows.iter().map(|r| r.links[i]).collect(),
+        goal_effort: None,
     };
     Run {
         name: run.name.clone(),
