@@ -34,8 +34,12 @@ fn a_joint_counted_to_the_horizontal_is_told_and_read_so() {
     let robot = arm(name);
     let cases = [0.0, 0.3, 1.0, 2.0].into_iter().flat_map(|f| (0..5).map(move |s| (f, s)));
     let ways = [(1.0, false), (-1.0, false), (1.0, true), (-1.0, true)];
-    for ((friction, seed), (sign, is_driven)) in cases.flat_map(|c| ways.map(|w| (c, w))) {
-        let whole = runs(&robot, [coulomb, viscous], friction, 500 + seed);
+    let logs = cases.map(|(friction, seed)| {
+        (friction, seed, runs(&robot, [coulomb, viscous], friction, 500 + seed))
+    });
+    for ((friction, seed, whole), (sign, is_driven)) in
+        logs.flat_map(|logs| ways.map(|way| (logs.clone(), way)))
+    {
         let mut logged = whole.clone();
         logged.iter_mut().for_each(|run| counted(run, (sign, is_driven)));
         let read = correct(&robot, &logged);

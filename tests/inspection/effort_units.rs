@@ -45,11 +45,11 @@ fn efforts_in_another_unit_are_read_in_it_joint_by_joint() {
     let mut all = Vec::new();
     for (name, coulomb, viscous) in ARMS {
         let robot = arm(name);
-        for (unit, per_nm) in UNITS {
-            for (friction, seed) in
-                [0.0, 0.3, 1.0, 2.0].into_iter().flat_map(|f| (0..5).map(move |s| (f, s)))
-            {
-                let whole = runs(&robot, [coulomb, viscous], friction, 400 + seed);
+        for (friction, seed) in
+            [0.0, 0.3, 1.0, 2.0].into_iter().flat_map(|f| (0..5).map(move |s| (f, s)))
+        {
+            let whole = runs(&robot, [coulomb, viscous], friction, 400 + seed);
+            for (unit, per_nm) in UNITS {
                 let mut logged = whole.clone();
                 for (j, joint) in logged.iter_mut().flat_map(|r| r.joints.iter_mut().enumerate()) {
                     joint.effort.iter_mut().for_each(|effort| *effort *= per_nm(j));
