@@ -6,13 +6,15 @@ use crate::runs::run::{Channels, GoalEffort, median};
 ///
 /// ```text
 /// effort[k] = kp (goal(t[k] - delay) - q[k]) - kd qd[k]
-/// qd[k]     = (q[k+1] - q[k-1]) / (t[k+1] - t[k-1])
+/// qd[k]     = (58 (q[k+1] - q[k-1]) + 67 (q[k+2] - q[k-2]) - 22 (q[k+3] - q[k-3])) / (252 dt)
 /// ```
 ///
 /// `goal` is `desired_position`. Where the description says how long a goal is held, it is its mean over half a row either
 /// way, or the goal of half a hold before where goals are renewed more often than rows are logged. `delay` is that of the
-/// description. `qd` is the velocity column where the log has one. The difference is one-sided at the first and the last
-/// sample. Without a goal there is no effort.
+/// description. `qd` is the velocity column where the log has one, else the slope of the quartic through seven positions
+/// (Savitzky & Golay 1964), which passes less noise than `(q[k+1] - q[k-1]) / (t[k+1] - t[k-1])` and is exact to the fourth
+/// order. The latter stands at the ends and in rows at uneven times, one-sided at the first and the last sample. Without a
+/// goal there is no effort.
 pub(crate) fn compute_effort(drive: &Actuator, time: &[f64], channels: &mut Channels) {
     let Some(PdGain { kp, kd }) = drive.position_loop else { return };
     let q = &channels.position;
@@ -29,14 +31,28 @@ pub(crate) fn compute_effort(drive: &Actuator, time: &[f64], channels: &mut Chan
 }
 
 fn velocity(time: &[f64], q: &[f64]) -> Vec<f64> {
+    let steps = steps(time);
+    let usual = median(&steps);
     let last = time.len().saturating_sub(1);
+    let is_even = |k: usize| {
+        let reach = QUARTIC.len();
+        let around = k.checked_sub(reach).and_then(|first| steps.get(first..k + reach));
+        around.is_some_and(|s| s.iter().all(|step| (step - usual).abs() < SAME_RATE * usual))
+    };
+    let slope = |k: usize| {
+        let pairs = QUARTIC.iter().enumerate().map(|(i, c)| c * (q[k + i + 1] - q[k - i - 1]));
+        pairs.sum::<f64>() / usual
+    };
     let difference = |k: usize| {
         let (before, after) = (k.saturating_sub(1), (k + 1).min(last));
         let step = time[after] - time[before];
         if step > 0.0 { (q[after] - q[before]) / step } else { 0.0 }
     };
-    (0..time.len()).map(difference).collect()
+    (0..time.len()).map(|k| if is_even(k) { slope(k) } else { difference(k) }).collect()
 }
+
+/// Weights of the differences over two, four and six rows in the slope of a quartic.
+const QUARTIC: [f64; 3] = [58.0 / 252.0, 67.0 / 252.0, -22.0 / 252.0];
 
 fn steps(time: &[f64]) -> Vec<f64> {
     time.windows(2).map(|t| t[1] - t[0]).collect()
@@ -60,7 +76,7 @@ fn followed_goals(time: &[f64], goal: &[f64], drive: &Actuator) -> Vec<f64> {
     }
 }
 
-/// Share by which the rates of goals and rows may differ and be the same.
+/// Share by which rates of goals and rows, or two steps of a clock, may differ and be the same.
 const SAME_RATE: f64 = 0.01;
 
 /// The goal at a time, on lines between the rows.
@@ -113,6 +129,18 @@ mod tests {
         assert_eq!(effort(&drive, &time, channels.clone()), [8.0, -8.0 / 3.0, -33.0]);
         let channels = Channels { velocity: Some(vec![0.5; 3]), ..channels };
         assert_eq!(effort(&drive, &time, channels), [9.0, -1.0, -31.0]);
+    }
+
+    /// The slope of `t^4 - t^2 + t` in even rows, but for three at either end.
+    #[test]
+    fn the_velocity_of_a_quartic_is_exact() {
+        let time: Vec<f64> = (0..30).map(|k| 0.02 * f64::from(k)).collect();
+        let q: Vec<f64> = time.iter().map(|t| t.powi(4) - t * t + t).collect();
+        let qd = velocity(&time, &q);
+        for (qd, t) in qd.iter().zip(&time).skip(3).take(24) {
+            let expected = 4.0 * t.powi(3) - 2.0 * t + 1.0;
+            assert!((qd - expected).abs() < 1e-10, "{qd}, not {expected} at {t} s");
+        }
     }
 
     /// A ramp of 3 rad/s in rows of .1 s: late by the delay, and by half the time for which each goal is held.
