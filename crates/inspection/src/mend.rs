@@ -76,13 +76,13 @@ impl Observation {
             return false;
         }
         match (self.kind, self.joints.as_slice()) {
-            (K::EffortSign, joints) => at(runs, joints, |joint| scale(&mut joint.effort, -1.0)),
+            (K::EffortSign, joints) => at(runs, joints, |joint| scale_effort(joint, -1.0)),
             (K::PositionSign, joints) => at(runs, joints, |joint| scale_motion(joint, -1.0)),
             (K::Degrees, joints) => at(runs, joints, |joint| scale_motion(joint, PI / 180.0)),
             (K::EffortUnit { .. }, _) => {
                 for (joint, factor) in self.units.iter().filter_map(|u| Some((u.joint, u.factor?)))
                 {
-                    at(runs, &[joint], |joint| scale(&mut joint.effort, 1.0 / factor));
+                    at(runs, &[joint], |joint| scale_effort(joint, 1.0 / factor));
                 }
             }
             (K::TimeUnit { factor }, _) => {
@@ -149,6 +149,14 @@ fn scale(signal: &mut [f64], by: f64) {
     signal.iter_mut().for_each(|x| *x *= by);
 }
 
+/// Scales the effort of a joint, and the part of it that follows a goal.
+fn scale_effort(joint: &mut Channels, by: f64) {
+    scale(&mut joint.effort, by);
+    if let Some(goal) = &mut joint.goal_effort {
+        scale(&mut goal.values, by);
+    }
+}
+
 /// Scales the positions of a joint, and its velocities and accelerations where they follow the positions.
 fn scale_motion(joint: &mut Channels, by: f64) {
     let of_the_positions = follows(joint);
@@ -199,6 +207,8 @@ fn add(signal: &mut [f64], other: &[f64], factor: f64) {
 fn exchange_efforts(run: &mut Run, a: usize, b: usize) {
     let effort = std::mem::take(&mut run.joints[a].effort);
     run.joints[a].effort = std::mem::replace(&mut run.joints[b].effort, effort);
+    let goal = run.joints[a].goal_effort.take();
+    run.joints[a].goal_effort = std::mem::replace(&mut run.joints[b].goal_effort, goal);
 }
 
 /// Exchanges all columns of two joints, whose names stay.

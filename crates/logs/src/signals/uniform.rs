@@ -100,8 +100,10 @@ pub(crate) fn check_runs(runs: &[Run]) -> Result<(), LogError> {
             });
         }
         let signals = run.joints.iter().flat_map(|joint| {
-            let all = Channel::ALL.into_iter();
-            all.filter_map(move |c| Some((format!("{}.{}", joint.name, c.suffix()), joint.get(c)?)))
+            let all = Channel::ALL.into_iter().map(|c| (c.suffix(), joint.get(c)));
+            let goal = joint.goal_effort.as_ref().map(|goal| goal.values.as_slice());
+            let all = all.chain([("goal_effort", goal)]);
+            all.filter_map(|(name, x)| Some((format!("{}.{name}", joint.name), x?)))
         });
         for (column, samples) in signals {
             if samples.len() != run.time.len() {
