@@ -86,7 +86,7 @@ fn effects_prints_for_programs_what_can_be_done_about_each() {
         "summary": "torque that varies with the motor angle",
         "diagnosed": true, "simulated": true, "compensated": true,
     });
-    assert_eq!((effects.len(), ripple), (27, Some(&expected)));
+    assert_eq!((effects.len(), ripple), (28, Some(&expected)));
 }
 
 #[test]
