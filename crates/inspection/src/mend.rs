@@ -63,7 +63,7 @@ impl Observation {
             or: Vec::new(),
             joints,
             units: Vec::new(),
-            spoils: Spoils::Joints,
+            spoils: Spoils::Nothing,
             evidence: None,
             ..self.clone()
         })
@@ -79,10 +79,10 @@ impl Observation {
             (K::EffortSign, joints) => at(runs, joints, |joint| scale_effort(joint, -1.0)),
             (K::PositionSign, joints) => at(runs, joints, |joint| scale_motion(joint, -1.0)),
             (K::Degrees, joints) => at(runs, joints, |joint| scale_motion(joint, PI / 180.0)),
-            (K::EffortUnit { .. }, _) => {
-                for (joint, factor) in self.units.iter().filter_map(|u| Some((u.joint, u.factor?)))
-                {
-                    at(runs, &[joint], |joint| scale_effort(joint, 1.0 / factor));
+            (K::EffortUnit { factor: middle }, _) => {
+                for unit in &self.units {
+                    let factor = unit.factor.unwrap_or(middle);
+                    at(runs, &[unit.joint], |joint| scale_effort(joint, 1.0 / factor));
                 }
             }
             (K::TimeUnit { factor }, _) => {

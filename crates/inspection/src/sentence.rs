@@ -107,7 +107,7 @@ impl Names<'_> {
             }
             K::UnknownUnit => format!(
                 "The unit of the effort of {at} is not known: other joints are in another unit, and the motion here does \
-                 not show its own"
+                 not show its own. It is read with their middle factor"
             ),
             K::EffortWithoutGravity => "The efforts lack the torque of gravity".to_owned(),
             K::GravityDirection { .. } | K::GravityValue { .. } => self.gravity(kind),
