@@ -46,7 +46,10 @@ pub(crate) fn joint_rows(report: &Report) -> Vec<JointRow> {
             torque: significant(joint.torque_rms_nm, 3),
             before: significant(before, 3),
             after: significant(after, 3),
-            floor: significant(joint.noise_floor_rms_nm, 3),
+            floor: match joint.noise_floor_from {
+                NoiseFloorSource::Unknown => "-".to_owned(),
+                _ => significant(joint.noise_floor_rms_nm, 3),
+            },
             floor_from: words_for_floor(joint.noise_floor_from),
             adequate: joint.verdict != Verdict::DataInadequate,
             nmse_before: significant(at(&gain.nmse_before, i), 2),

@@ -1,5 +1,5 @@
 use anstyle::{AnsiColor, Style};
-use diagnosis::{Finding, JointReport, Verdict};
+use diagnosis::{Finding, JointReport, NoiseFloorSource, Verdict};
 
 use crate::diagnosis::forward::forward_sentence;
 use crate::diagnosis::places::{JointUnits, acting_on, findings_of};
@@ -80,8 +80,14 @@ fn is_adequate(joint: &JointReport) -> bool {
 /// What the words in the blocks mean, only those that occur.
 fn legend(out: &mut String, report: &Report) {
     let adequate = report.diagnosis.joints.iter().filter(|j| is_adequate(j));
-    let mut floors: Vec<[&str; 2]> =
-        adequate.map(|j| words_for_floor(j.noise_floor_from)).collect();
+    let words = |joint: &JointReport| {
+        let [source, meaning] = words_for_floor(joint.noise_floor_from);
+        match joint.noise_floor_from {
+            NoiseFloorSource::Unknown => ("noise -".to_owned(), meaning),
+            _ => (format!("noise ({source})"), meaning),
+        }
+    };
+    let mut floors: Vec<(String, &str)> = adequate.map(words).collect();
     if !floors.is_empty() {
         out.push('\n');
         push_entry(
@@ -104,8 +110,8 @@ fn legend(out: &mut String, report: &Report) {
     }
     floors.sort_unstable();
     floors.dedup();
-    for [word, meaning] in floors {
-        push_entry(out, &format!("noise ({word})"), meaning);
+    for (word, meaning) in floors {
+        push_entry(out, &word, meaning);
     }
 }
 
@@ -207,14 +213,16 @@ fn elsewhere(out: &mut String, report: &Report, index: usize) {
 fn errors(report: &Report, index: usize, joint: &JointReport) -> String {
     let gain = &report.diagnosis.gain.inverse;
     let number = |values: &[f64]| significant(values.get(index).copied().unwrap_or(f64::NAN), 3);
-    let [floor, _] = words_for_floor(joint.noise_floor_from);
+    let noise = match (joint.noise_floor_from, words_for_floor(joint.noise_floor_from)) {
+        (NoiseFloorSource::Unknown, _) => "-".to_owned(),
+        (_, [source, _]) => format!("{} ({source})", significant(joint.noise_floor_rms_nm, 3)),
+    };
     format!(
-        "error {} -> {} of {} {} RMS, noise {} ({floor})",
+        "error {} -> {} of {} {} RMS, noise {noise}",
         number(&gain.rms_before_nm),
         number(&gain.rms_after_nm),
         significant(joint.torque_rms_nm, 3),
         JointUnits::of(report.robot, &joint.name).effort,
-        significant(joint.noise_floor_rms_nm, 3),
     )
 }
 
@@ -334,6 +342,17 @@ warning: elbow: quantised in steps of 0.01 N m
         let worth = "smaller with them, by 20 % at shoulder. --only-findings leaves them out.";
         assert!(said.contains("without a name: 1 parameter,") && said.contains(worth), "{said}");
         assert!(plain.lines().all(|line| line.chars().count() <= TERMINAL_WIDTH));
+    }
+
+    #[test]
+    fn noise_that_the_logs_do_not_tell_is_no_number() {
+        let mut sample = sample::arm();
+        sample.diagnosis.joints[0].noise_floor_from = NoiseFloorSource::Unknown;
+        sample.diagnosis.joints[0].noise_floor_rms_nm = 0.0;
+        let plain = without_escapes(&text(&sample.report()));
+        assert!(plain.contains("of 5.00 N·m RMS, noise -\n"), "{plain}");
+        assert!(plain.contains("\nnoise -            of which the logs tell nothing\n"), "{plain}");
+        assert!(plain.contains("\nnoise (effort)     "), "{plain}");
     }
 
     #[test]
