@@ -12,7 +12,7 @@ const KEEPERS: [&str; 5] = [
     "crates/simulator/",
     "crates/experiment/src/scoring/blinded.rs",
     "crates/benchmark/src/trials/",
-    "crates/cli/src/arguments.rs",
+    "crates/cli/src/help_texts.rs",
     "crates/cli/src/commands/simulate.rs",
 ];
 

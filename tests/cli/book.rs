@@ -127,8 +127,8 @@ fn every_page_with_commands_is_held() {
 
 #[test]
 fn the_catalogue_is_the_one_of_the_program() {
-    let answer = run(&workspace_root(), &["effects", "--markdown"]);
+    let answer = run(&workspace_root(), &["explain", "--markdown"]);
     let path: PathBuf = checks::book::folder().join("effects.md");
     let page = fs::read_to_string(&path).unwrap();
-    assert!(page == answer.out, "plumbline effects --markdown > docs/src/effects.md makes it anew");
+    assert!(page == answer.out, "plumbline explain --markdown > docs/src/effects.md makes it anew");
 }

@@ -6,16 +6,9 @@ fn help_names_every_command_and_every_exit_code() {
     let folder = tempfile::tempdir().unwrap();
     let help = run(folder.path(), &["--help"]);
     assert_eq!(help.code, 0);
-    for expected in [
-        "diagnose",
-        "robot",
-        "log",
-        "effects",
-        "explain",
-        "Examples:",
-        "Exit codes:",
-        "  3  unusable data",
-    ] {
+    for expected in
+        ["diagnose", "robot", "log", "explain", "Examples:", "Exit codes:", "  3  unusable data"]
+    {
         assert!(help.out.contains(expected), "{expected} is missing in\n{}", help.out);
     }
     let help = run(folder.path(), &["diagnose", "--help"]);
@@ -58,9 +51,8 @@ fn wrong_usage_exits_with_two() {
 #[test]
 fn explain_prints_the_catalogue() {
     let folder = tempfile::tempdir().unwrap();
-    let list = run(folder.path(), &["effects"]);
+    let list = run(folder.path(), &["explain"]);
     assert_eq!((list.code, list.err.as_str()), (0, ""));
-    assert_eq!(run(folder.path(), &["explain"]).out, list.out);
     for kind in catalogue::EffectKind::ALL {
         assert!(list.out.contains(kind.name()), "{}", list.out);
         let one = run(folder.path(), &["explain", kind.name()]);
@@ -74,9 +66,9 @@ fn explain_prints_the_catalogue() {
 }
 
 #[test]
-fn effects_prints_for_programs_what_can_be_done_about_each() {
+fn explain_prints_for_programs_what_can_be_done_about_each_effect() {
     let folder = tempfile::tempdir().unwrap();
-    let answer = run(folder.path(), &["effects", "--json"]);
+    let answer = run(folder.path(), &["explain", "--json"]);
     let list: serde_json::Value = serde_json::from_str(&answer.out).unwrap();
     assert_eq!(list["schema"], "plumbline.effects/1");
     let effects = list["effects"].as_array().unwrap();
@@ -87,6 +79,14 @@ fn effects_prints_for_programs_what_can_be_done_about_each() {
         "diagnosed": true, "simulated": true, "compensated": true,
     });
     assert_eq!((effects.len(), ripple), (28, Some(&expected)));
+    let answer = run(folder.path(), &["explain", "FR02", "--json"]);
+    let one: serde_json::Value = serde_json::from_str(&answer.out).unwrap();
+    assert_eq!(
+        (&one["schema"], &one["name"]),
+        (&"plumbline.effect/1".into(), &"coulomb_friction".into())
+    );
+    assert!(one["parameters"]["level"].as_str().unwrap().contains("N·m"), "{one}");
+    assert!(one["confused_with"].as_array().unwrap().contains(&"viscous_friction".into()), "{one}");
 }
 
 #[test]

@@ -47,6 +47,34 @@ fn friction_that_grew_is_what_changed() {
 }
 
 #[test]
+fn what_changed_is_told_for_programs_with_the_logs_of_both_sides() {
+    let folder = folder(2.0);
+    let answer = compare(folder.path(), &[&AFTER[..], &["--json", "--quiet"]].concat());
+    assert_eq!((answer.code, answer.err.as_str()), (1, ""));
+    let told: Value = serde_json::from_str(&answer.out).unwrap();
+    assert_eq!(told["schema"], "plumbline.comparison/1");
+    let [change] = told["changes"].as_array().unwrap().as_slice() else { panic!("{told}") };
+    assert_eq!((&change["code"], &change["joint"]), (&"FR02".into(), &"elbow".into()));
+    let number = |value: &Value| value.as_f64().unwrap();
+    let level = &change["parameters"]["level"];
+    assert!((number(&level["value"]) - 2.0).abs() < 0.02, "{level}");
+    assert!((number(&level["nominal"]) - 1.5).abs() < 0.02, "{level}");
+    let first = &told["in_first_logs"][0]["parameters"]["level"]["value"];
+    assert!((number(first) - 1.5).abs() < 0.02, "{told}");
+    for (side, logs) in
+        [("before", ["run_0", "run_1", "run_2"]), ("after", ["run_3", "run_4", "run_5"])]
+    {
+        let files = told["provenance"][side]["files"].as_array().unwrap().iter();
+        let paths: Vec<&str> = files.map(|file| file["path"].as_str().unwrap()).collect();
+        let expected = logs.map(|log| format!("../{log}.csv"));
+        assert_eq!(paths[0], "../arm.urdf");
+        assert_eq!(paths[1..], expected, "{side}");
+    }
+    let written = fs::read_to_string(folder.path().join("out/comparison.json")).unwrap();
+    assert_eq!(written, answer.out);
+}
+
+#[test]
 fn where_nothing_changed_it_says_so() {
     let folder = folder(1.5);
     let answer = compare(folder.path(), &AFTER);

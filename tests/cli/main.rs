@@ -19,12 +19,14 @@ mod export;
 mod faults;
 mod files;
 mod foreign_files;
+mod help;
 mod impossible;
 mod learn;
 mod lerobot;
 #[cfg(target_os = "linux")]
 mod limits;
 mod program;
+mod remembered;
 mod replay;
 mod robot_init;
 mod run;

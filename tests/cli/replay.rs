@@ -58,6 +58,47 @@ fn drift_and_torque_of_every_joint_are_told_and_the_motions_written() {
     assert_eq!(names(&folder.path().join("out")), expected);
 }
 
+/// The tip of a slide is as far off as its joint.
+#[test]
+fn the_tip_is_told_in_millimetres_and_all_numbers_for_programs() {
+    let folder = tempfile::tempdir().unwrap();
+    let urdf = "<robot name=\"slide\"><link name=\"base\"/><joint name=\"x\" type=\"prismatic\">\n\
+        <parent link=\"base\"/><child link=\"cart\"/><axis xyz=\"1 0 0\"/>\n\
+        <limit lower=\"-9\" upper=\"9\" velocity=\"90\" effort=\"90\"/></joint>\n\
+        <link name=\"cart\"><inertial><mass value=\"2\"/>\n\
+        <inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link></robot>";
+    fs::write(folder.path().join("slide.urdf"), urdf).unwrap();
+    // A cart of 3 kg, which the description calls one of 2 kg.
+    let row = |k: u32| {
+        let t = f64::from(k) / 200.0;
+        let [x, v, a] = [0.2 * (4.0 * t).sin(), 0.8 * (4.0 * t).cos(), -3.2 * (4.0 * t).sin()];
+        format!("{t},{x},{v},{}\n", 3.0 * a)
+    };
+    let log = "time,x.position,x.velocity,x.effort\n".to_owned();
+    let log = log + &(0..2000).map(row).collect::<String>();
+    fs::write(folder.path().join("run.csv"), log).unwrap();
+    let base = ["replay", "--robot", "slide.urdf", "--log", "run.csv", "--window-ms", "200"];
+    let told = run(folder.path(), &base);
+    assert_eq!((told.code, told.err.as_str()), (0, ""));
+    let number = |name: &str| -> f64 {
+        let line = told.out.lines().find_map(|line| line.trim_start().strip_prefix(name)).unwrap();
+        line.trim().parse().unwrap()
+    };
+    let drift = number("x ");
+    assert!(drift > 1e-3, "{}", told.out);
+    assert!((number("tip (mm)") - 1e3 * drift).abs() < 5e-3 * 1e3 * drift, "{}", told.out);
+
+    let answer = run(folder.path(), &[&base[..], &["--json", "--quiet"]].concat());
+    assert_eq!((answer.code, answer.err.as_str()), (0, ""));
+    let value: serde_json::Value = serde_json::from_str(&answer.out).unwrap();
+    assert_eq!(value["schema"], "plumbline.replay/1");
+    let window = &value["runs"][0]["windows"][0];
+    let [joint, tip] = [&window["drift_rms"][0], &window["tip_rms_m"]].map(|x| x.as_f64().unwrap());
+    assert!((joint - tip).abs() < 1e-9 * tip, "{window}");
+    let written = fs::read_to_string(folder.path().join("out/replay/replay.json")).unwrap();
+    assert_eq!(written, answer.out);
+}
+
 #[test]
 fn a_window_that_fits_into_no_record_is_refused_before_anything_is_written() {
     let folder = folder();

@@ -32,6 +32,41 @@ fn a_described_arm_can_be_simulated_without_a_key_written_by_hand() {
     assert!(!info.out.contains("\"moves\": false"), "{}", info.out);
 }
 
+/// Both commands tell programs what they wrote, in the folders that no option names.
+#[test]
+fn what_was_guessed_and_simulated_is_told_for_programs() {
+    let folder = arm::folder(Gap::None);
+    let told = |arguments: &[&str]| -> serde_json::Value {
+        let answer = run(folder.path(), arguments);
+        assert_eq!(answer.code, 0, "{arguments:?}: {}", answer.err);
+        serde_json::from_str(&answer.out).unwrap()
+    };
+    let begun = told(&["robot", "init", "arm.urdf", "--json"]);
+    assert_eq!(begun["robot"], "out/robot/robot.toml");
+    let toml = std::fs::read_to_string(folder.path().join("out/robot/robot.toml")).unwrap();
+    let joints = begun["joints"].as_array().unwrap();
+    assert_eq!(joints.len(), 2);
+    for joint in joints {
+        assert!(toml.contains(&format!("[joint.{}]", joint["name"].as_str().unwrap())), "{joint}");
+        assert!(joint["kp_nm_per_rad"].as_f64().unwrap() > 0.0, "{joint}");
+    }
+    let made = told(&["simulate", begun["scenario"].as_str().unwrap(), "--json"]);
+    assert_eq!(made["schema"], "plumbline.simulation/1");
+    let runs = made["runs"].as_array().unwrap();
+    assert_eq!(runs.len(), 3);
+    for run in runs {
+        assert!(folder.path().join(run["log"].as_str().unwrap()).is_file(), "{run}");
+        assert!(run["rows"].as_u64().unwrap() > 1000, "{run}");
+    }
+    // Ideal sensors: of the noise nothing is known, and no number says so.
+    let mut diagnose =
+        vec!["diagnose", "--robot", "out/robot/robot.toml", "--no-recording", "--log"];
+    diagnose.extend(runs.iter().map(|run| run["log"].as_str().unwrap()));
+    let answer = run(folder.path(), &diagnose);
+    assert!(answer.out.contains("RMS, noise -\n"), "{}{}", answer.out, answer.err);
+    assert!(!answer.out.contains("noise 0"), "{}", answer.out);
+}
+
 #[test]
 fn a_description_that_is_there_stays() {
     let folder = arm::folder(Gap::None);

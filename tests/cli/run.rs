@@ -4,8 +4,8 @@ use std::path::Path;
 use serde_json::Value;
 
 use crate::arm;
-use crate::files::json;
-use crate::program::{Answer, run};
+use crate::files::{json, names};
+use crate::program::{Answer, plumbline, run};
 
 const SCENARIOS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios");
 
@@ -164,6 +164,26 @@ fn a_demo_needs_nothing_and_finds_both_effects_that_it_hides() {
     assert_eq!(value["score"]["stray"].as_array().unwrap().len(), 0);
     let report = fs::metadata(folder.path().join("out/demo/report.html")).unwrap();
     assert!(report.len() < 2_000_000, "{} bytes", report.len());
+}
+
+/// The demo is ended as soon as its first files are there.
+#[test]
+fn the_demo_of_another_arm_has_a_folder_of_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    for (robot, out) in [("panda", "demo_panda"), ("so101", "demo_so101"), ("wam7", "demo")] {
+        let mut command = plumbline();
+        command.current_dir(folder.path()).args(["demo", "--robot", robot, "--quiet"]);
+        let mut demo = command.spawn().unwrap();
+        let source = folder.path().join("out").join(out).join("source/robots").join(robot);
+        let begin = std::time::Instant::now();
+        while !source.is_dir() && begin.elapsed().as_secs() < 60 {
+            std::thread::sleep(std::time::Duration::from_millis(20));
+        }
+        demo.kill().unwrap();
+        demo.wait().unwrap();
+        assert!(source.is_dir(), "{}", source.display());
+    }
+    assert_eq!(names(&folder.path().join("out")), ["demo", "demo_panda", "demo_so101"]);
 }
 
 #[test]

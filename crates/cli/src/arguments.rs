@@ -1,239 +1,34 @@
-use clap::{Parser, Subcommand};
+use std::fmt::Write as _;
 
+use clap::{CommandFactory, Parser, Subcommand};
+
+use crate::after_help::{MOST_COLUMNS, after, list, terminal_width};
 use crate::commands::{
-    compare, completions, demo, design, diagnose, effects, explain, export, learn, log_info, man,
-    replay, robot_check, robot_init, run, schema, simulate, track, view,
+    compare, completions, demo, design, diagnose, explain, export, learn, log_info, man, replay,
+    robot_check, robot_init, run, schema, simulate, track, view,
 };
+use crate::help_texts as help;
 
-const EXIT_CODES: &str = "\
-Exit codes:
-  0  explained or consistent; for other commands: done
-  1  a gap is left unexplained, or the data cannot show one; robot check: an impossible inertia
-  2  usage: arguments, or an output folder that cannot be written
-  3  unusable data: a robot, a log or a column map";
-
-const SIMULATION_EXIT_CODES: &str = "\
-Exit codes:
-  0  done
-  2  usage: arguments, or an output folder that cannot be made
-  3  a scenario, a robot or a log that cannot be used, or a joint that ran away";
-
-const LEARN_EXIT_CODES: &str = "\
-Exit codes:
-  0  done, if only as far as Ctrl-C let it
-  2  usage: arguments, or an output folder that cannot be made
-  3  unusable data: a robot, a log or a column map";
-
-const VIEW_EXIT_CODES: &str = "\
-Exit codes:
-  0  done
-  2  no program opens what there is
-  3  there is nothing to look at";
-
-const EXAMPLES: &str = "\
-Examples:
-  plumbline demo
-  plumbline log info run_1.csv --robot robot.urdf
-  plumbline diagnose --robot robot.urdf --log run_1.csv run_2.csv --out out
-  plumbline explain FR02";
-
-const DIAGNOSE_EXAMPLES: &str = "\
-Examples:
-  plumbline diagnose --robot robot.urdf --log run_1.csv run_2.csv --out out
-  plumbline diagnose --robot out/extended.toml --log run_3.csv --out check
-  plumbline diagnose --robot robot.urdf --log run_1.csv run_2.csv --residual gp --out out
-
-Logs have a column time (s) and the columns <joint>.position (rad or m) and <joint>.effort
-(N m or N), and <joint>.velocity, <joint>.acceleration where they were recorded, and
-<joint>.link_position (rad or m) of a second encoder behind the gear.
-
-The output folder holds
-  report.html     the whole answer for a browser
-  recording.rrd   the measured arm beside the simulated one, for rerun's viewer: plumbline view out
-  figure.svg      the answer in one figure
-  diagnosis.json  the whole answer for programs
-  extended.toml   the robot with the findings, for --robot; needs robot.urdf beside it
-  extended.urdf   the given URDF with what of them it can hold: plumbline export out says what is left
-  models/named-gp.parquet
-                  the same with a process of what is left, for track --learned; with --residual";
-
-const COMPARE_EXIT_CODES: &str = "\
-Exit codes:
-  0  nothing has changed that these logs could show
-  1  something has changed
-  2  usage: arguments, or an output folder that cannot be written
-  3  unusable data: a robot, a log or a column map";
-
-const COMPARE_EXAMPLES: &str = "\
-Examples:
-  plumbline compare --robot robot.toml --before monday_*.csv --after friday_*.csv --out changes
-
-The logs may be those of one arm before and after, early and late in a session, or of two arms that
-should be alike; the motions need not be the same. The output folder holds
-  before/  the diagnosis of the first logs
-  after/   the diagnosis of the others, of the robot as the first logs found it: its findings are the
-           changes, and was means before";
-
-const EXPORT_EXIT_CODES: &str = "\
-Exit codes:
-  0  done
-  2  usage: arguments, or an output folder that cannot be made
-  3  a robot or a log that cannot be used, or a folder without a robot";
-
-const EXPORT_EXAMPLES: &str = "\
-Examples:
-  plumbline export out
-  plumbline export out --to mjcf,isaac --out models
-  plumbline export robot.toml --to urdf,sdf --out models
-  plumbline export out --to mjcf --log held_out.parquet
-
-The folder holds
-  extended.urdf  the user's own URDF with friction, inertias and origins as found
-  extended.xml   an MJCF for MuJoCo, with rotors, springs and the actuators' delays as well
-  extended.sdf   an SDF for Gazebo
-  extended.usda  a USD layer of bodies and joints for Isaac Sim
-
-Every quantity is printed with its fate: exact, approximated (how), dropped (why). With --log the
-torque error of what each file holds stands beside those of the nominal and the extended robot.";
-
-const INIT_EXAMPLES: &str = "\
-Examples:
-  plumbline robot init robot.urdf --out robots/mine
-  plumbline robot init mobile.urdf --joints arm_1,arm_2,arm_3 --out robots/arm
-
-The folder holds
-  robot.toml     rotors, gains, rate, sensing: guesses that are called so, to be replaced
-  scenario.toml  three runs within the robot's limits, for simulate and run";
-
-const DESIGN_EXIT_CODES: &str = "\
-Exit codes:
-  0  done, or nothing is open in the diagnosis: nothing is written
-  1  no motion settles what is open: nothing is written
-  2  usage: arguments, or an output folder that cannot be made
-  3  unusable data: a robot, a diagnosis or a log";
-
-const DESIGN_EXAMPLES: &str = "\
-Examples:
-  plumbline design --robot robot.toml --diagnosis out --out next
-  plumbline design --robot robot.toml --separate FR01@elbow --from FR02@elbow --out next
-
-The output folder holds
-  motion.csv      time (s) and <joint>.position, .velocity, .acceleration and .effort, the effort
-                  that the robot as described needs
-  motion.parquet  the same
-  motion.toml     the motion as a scenario, for simulate; to run it on another arm extend both:
-                  extends = [\"arm.toml\", \"next/motion.toml\"]";
-
-const SIMULATE_EXAMPLES: &str = "\
-Examples:
-  plumbline simulate scenarios/effects/coulomb_friction.toml --out out
-  plumbline simulate scenarios/demos/hidden_effects.toml --out out --seed 7
-  plumbline simulate scenarios/demos/hidden_effects.toml --out out --set sensors.log_rate_hz=250
-
-The output folder holds
-  NAME.parquet   the log of each run, which tells nothing of what was put in
-  scenario.toml  the scenario with all that it extends, --set and --seed: run again it gives
-                 the same logs
-  truth.json     what was put in: for scoring, never for a diagnosis
-
-plumbline effects lists the effects, plumbline schema prints what a scenario may say.";
-
-const LEARN_EXAMPLES: &str = "\
-Examples:
-  plumbline learn --robot robot.toml --train run_1.csv run_2.csv --test run_3.csv --out out
-  plumbline learn --robot robot.urdf --train run_1.csv --test run_3.csv --models gp-rbd --out out
-
-The output folder holds
-  learning.json         errors, times, hyperparameters and how their searches ended
-  figure.svg            the errors by joint and model
-  models/NAME.parquet   the models
-
-Ctrl-C ends the searches: every model is finished with what was found until then. Pressed
-again it ends the program.";
-
-const TRACK_EXAMPLES: &str = "\
-Examples:
-  plumbline track scenarios/tracking/low_gains.toml --out out
-  plumbline track scenarios/tracking/low_gains.toml --out out --set prediction.clock=wall
-  plumbline track scenarios/paper/fig3_4_tracking.toml --out out --learned out/models
-
-The output folder holds
-  report.html           the comparison for a browser
-  tracking.json         the same for programs
-  errors.svg            the errors by joint and model
-  motion.svg            the first 10 s of three joints
-  gains.svg             the errors against the gains, where the scenario has a sweep
-  logs/NAME.parquet     the log of each run
-  recordings/NAME.rrd   the recording of each run, for rerun's viewer: plumbline view out
-  models/NAME.parquet   the models, for --learned
-  scenario.toml         the scenario with all that it extends and --set
-
-Ctrl-C ends the runs where they are. A run that is killed leaves NAME.rrd as far as it came, and
-its log as NAME.csv.";
-
-const REPLAY_EXAMPLES: &str = "\
-Examples:
-  plumbline replay --robot robot.toml --log run_1.parquet --out replay
-  plumbline replay --robot out/extended.toml --log run_1.parquet --out replay --window-ms 100
-
-The output folder holds for each run
-  NAME_forward_50ms.parquet  the motion simulated under the torque of the log, for each length
-                             of time, beside <joint>.measured_position
-  NAME_motion.parquet        the torque simulated along the motion of the log, beside
-                             <joint>.measured_effort, if the robot.toml has gains";
-
-const RUN_EXAMPLES: &str = "\
-Examples:
-  plumbline run scenarios/demos/hidden_effects.toml --seed 7
-  plumbline run scenarios/motions/every_effect_shows.toml \\
-      --set \"effect=[{ backlash={ joint='j3_shoulder_yaw', gap_rad=0.01 } }]\"
-  plumbline run scenarios/tracking/low_gains.toml --set control.gains=low-tenth
-
-A scenario of an arm is what simulate takes. All its runs but the last are diagnosed; the last shows
-what that gains, and its motion is tracked with the softest gains of robot.toml that hold the arm, as
-described and extended, against gravity. A tracking scenario, which track takes, says which runs are
-learned from, and the motion, the gains and the models that are tracked.
-
-The output folder holds
-  report.html    what was put in, what was found, what that gains
-  recording.rrd  the measured arm beside the simulated one, for rerun's viewer: plumbline view out
-  metrics.json   the numbers, the same for the same scenario and seed
-  scenario.toml  the scenario with all that it extends, --set and --seed, to run again
-  logs/          what simulate writes: the logs, and apart from them what was put in
-  diagnosis/     what diagnose writes, the extended model among it
-  models/        the models that are fed forward
-  tracking/      what track writes
-  stages/        of what every stage was made: one that is there and whole is not made again
-
-A tracking scenario that feeds all models of Nguyen-Tuong & Peters 2010 forward is told against its
-figures 3 and 4.
-
-Ctrl-C ends the run; what was finished is kept.";
-
-const DEMO_EXAMPLES: &str = "\
-Examples:
-  plumbline demo
-  plumbline demo --seed 7 --out other
-  plumbline demo --robot ur5e
-
-The scenario is scenarios/demos/wam.toml of the repository, or that of the robot; it and the robot
-are in the program and are written to source/ in the output folder, which plumbline run --help
-describes.";
-
-const COMPLETIONS_EXAMPLES: &str = "\
-Examples:
-  plumbline completions bash > ~/.local/share/bash-completion/completions/plumbline
-  plumbline completions zsh > ~/.zfunc/_plumbline
-  plumbline completions fish > ~/.config/fish/completions/plumbline.fish";
-
-const MAN_EXAMPLES: &str = "\
-Examples:
-  plumbline man --out ~/.local/share/man/man1";
+/// The commands as the help of the program lists them, by what one has to do.
+const GROUPS: [(&str, &[&str]); 3] = [
+    (
+        "Your arm",
+        &["diagnose", "compare", "design", "export", "log", "robot", "explain", "view", "demo"],
+    ),
+    ("Simulation and research", &["simulate", "run", "replay", "learn", "track"]),
+    ("Shell", &["completions", "man", "schema"]),
+];
 
 /// Shows what a simulation gets wrong in a recorded log, names the cause, extends the
 /// model and measures the gain.
 #[derive(Debug, Parser)]
-#[command(name = "plumbline", version, after_help = format!("{EXAMPLES}\n\n{EXIT_CODES}"), arg_required_else_help = true)]
+#[command(
+    name = "plumbline",
+    version,
+    max_term_width = MOST_COLUMNS,
+    after_help = after(help::PROGRAM),
+    arg_required_else_help = true
+)]
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
@@ -243,67 +38,66 @@ pub struct Arguments {
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Hides two effects in a simulated arm, finds them in its logs, and shows what that gains
-    #[command(after_help = format!("{DEMO_EXAMPLES}\n\n{SIMULATION_EXIT_CODES}"))]
-    Demo(demo::Arguments),
-    /// Simulates an arm with effects, diagnoses it from its logs, and measures what that gains
-    #[command(after_help = format!("{RUN_EXAMPLES}\n\n{SIMULATION_EXIT_CODES}"))]
-    Run(run::Arguments),
     /// Names what a model gets wrong in logs, writes the extended model, a report and a figure
-    #[command(after_help = format!("{DIAGNOSE_EXAMPLES}\n\n{EXIT_CODES}"))]
+    #[command(after_help = after(help::DIAGNOSE))]
     Diagnose(diagnose::Arguments),
     /// Names what changed from one set of logs to another
-    #[command(after_help = format!("{COMPARE_EXAMPLES}\n\n{COMPARE_EXIT_CODES}"))]
+    #[command(after_help = after(help::COMPARE))]
     Compare(compare::Arguments),
     /// Searches the motion that tells apart what a diagnosis could not, within the robot's limits
-    #[command(after_help = format!("{DESIGN_EXAMPLES}\n\n{DESIGN_EXIT_CODES}"))]
+    #[command(after_help = after(help::DESIGN))]
     Design(design::Arguments),
     /// Writes the robot with its findings as URDF, MJCF, SDF and USD, and says what each leaves out
-    #[command(after_help = format!("{EXPORT_EXAMPLES}\n\n{EXPORT_EXIT_CODES}"))]
+    #[command(after_help = after(help::EXPORT))]
     Export(export::Arguments),
-    /// Looks at a robot description: joints, limits, masses, consistency
-    #[command(subcommand)]
-    Robot(RobotCommand),
     /// Looks at logs: rate, gaps, ranges, noise, time skew
     #[command(subcommand)]
     Log(LogCommand),
-    /// Lists the effects: code, name, what each is, whether it is diagnosed and compensated
-    Effects(effects::Arguments),
-    /// Explains an effect by its code or name; lists all effects without one
+    /// Looks at a robot description: joints, limits, masses, consistency
+    #[command(subcommand)]
+    Robot(RobotCommand),
+    /// Explains an effect by its code or name; without one lists them all
+    #[command(alias = "effects")]
     Explain(explain::Arguments),
-    /// Simulates the runs of a scenario: logs, and apart from them what was put in
-    #[command(after_help = format!("{SIMULATE_EXAMPLES}\n\n{SIMULATION_EXIT_CODES}"))]
-    Simulate(simulate::Arguments),
-    /// Learns models of the torque from logs and compares them on others
-    #[command(after_help = format!("{LEARN_EXAMPLES}\n\n{LEARN_EXIT_CODES}"))]
-    Learn(learn::arguments::Arguments),
-    /// Compares a simulation with logs: motion under their torque, torque along their motion
-    #[command(after_help = format!("{REPLAY_EXAMPLES}\n\n{SIMULATION_EXIT_CODES}"))]
-    Replay(replay::Arguments),
-    /// Tracks a motion with low gains and the torque of models fed forward, and compares them
-    #[command(after_help = format!("{TRACK_EXAMPLES}\n\n{SIMULATION_EXIT_CODES}"))]
-    Track(track::Arguments),
     /// Opens the report of an output folder in the browser, its recordings in rerun's viewer
-    #[command(after_help = VIEW_EXIT_CODES)]
+    #[command(after_help = after(help::VIEW))]
     View(view::Arguments),
-    /// Prints the JSON schema of scenario files
-    Schema(schema::Arguments),
+    /// Shows a whole run on an arm that comes with the program: two effects are hidden, found, and repaired
+    #[command(after_help = after(help::DEMO))]
+    Demo(demo::Arguments),
+    /// Makes logs alone: simulates a scenario, and writes what was put in apart from them
+    #[command(after_help = after(help::SIMULATE))]
+    Simulate(simulate::Arguments),
+    /// Simulates a scenario, diagnoses its logs, and measures what the answer gains
+    #[command(after_help = after(help::RUN))]
+    Run(run::Arguments),
+    /// Compares a simulation with logs: motion under their torque, torque along their motion
+    #[command(after_help = after(help::REPLAY))]
+    Replay(replay::Arguments),
+    /// Learns models of the torque from logs and compares them on others
+    #[command(after_help = after(help::LEARN))]
+    Learn(learn::arguments::Arguments),
+    /// Tracks a motion with low gains and the torque of models fed forward, and compares them
+    #[command(after_help = after(help::TRACK))]
+    Track(track::Arguments),
     /// Prints the script with which a shell completes commands and options
-    #[command(after_help = COMPLETIONS_EXAMPLES)]
+    #[command(after_help = after(help::COMPLETIONS))]
     Completions(completions::Arguments),
     /// Writes a manual page for the program and for every command
-    #[command(after_help = MAN_EXAMPLES)]
+    #[command(after_help = after(help::MAN))]
     Man(man::Arguments),
+    /// Prints the JSON schema of scenario files
+    Schema(schema::Arguments),
 }
 
 /// Commands on a robot description.
 #[derive(Debug, Subcommand)]
 pub enum RobotCommand {
     /// Prints joints, limits, masses, consistency and the number of base parameters
-    #[command(after_help = EXIT_CODES)]
+    #[command(after_help = after(help::ROBOT_CHECK))]
     Check(robot_check::Arguments),
     /// Writes a robot.toml with what a URDF cannot say, guessed, and a scenario that moves the robot
-    #[command(after_help = format!("{INIT_EXAMPLES}\n\n{SIMULATION_EXIT_CODES}"))]
+    #[command(after_help = after(help::ROBOT_INIT))]
     Init(robot_init::Arguments),
 }
 
@@ -311,6 +105,47 @@ pub enum RobotCommand {
 #[derive(Debug, Subcommand)]
 pub enum LogCommand {
     /// Prints rate, jitter, gaps, ranges, quantisation, saturation and time skew
-    #[command(after_help = EXIT_CODES)]
+    #[command(after_help = after(help::LOG_INFO))]
     Info(log_info::Arguments),
+}
+
+/// The command line, whose help lists the commands in groups.
+pub fn command() -> clap::Command {
+    let command = Arguments::command();
+    let header = command.get_styles().get_header();
+    let mut template = "{about-with-newline}\n{usage-heading} {usage}\n\n".to_owned();
+    let width = terminal_width();
+    for (title, names) in GROUPS {
+        let words = |name: &&str| {
+            let about = command.find_subcommand(name).and_then(clap::Command::get_about);
+            about.map(ToString::to_string).unwrap_or_default()
+        };
+        let words: Vec<String> = names.iter().map(words).collect();
+        let rows = names.iter().zip(&words).map(|(name, words)| (*name, words.as_str()));
+        let rows = list(&rows.collect::<Vec<_>>(), width);
+        let _ = write!(template, "{header}{title}:{header:#}\n{rows}\n\n");
+    }
+    let _ = write!(template, "{header}Options:{header:#}\n{{options}}{{after-help}}");
+    command.help_template(template)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_command_is_in_one_group() {
+        let mut listed: Vec<&str> =
+            GROUPS.iter().flat_map(|(_, names)| names.iter().copied()).collect();
+        let command = Arguments::command();
+        let mut all: Vec<&str> = command.get_subcommands().map(|c| c.get_name()).collect();
+        listed.sort_unstable();
+        all.sort_unstable();
+        assert_eq!(listed, all);
+    }
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        command().debug_assert();
+    }
 }

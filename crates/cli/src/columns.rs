@@ -14,24 +14,27 @@ use crate::input::seconds;
 use crate::input_warnings::memory_need_gb;
 use crate::messages::{tell, warn};
 
+/// What these options stand below in a help text.
+const HEADING: &str = "How logs are read";
+
 /// How the columns of logs are called.
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Clone, clap::Args)]
 pub struct ColumnArguments {
     /// Names and units of columns that are called otherwise: a file (TOML), or ur, franka,
     /// plotjuggler, lerobot or numpy for what these programs write
-    #[arg(long, value_name = "FILE|NAME")]
+    #[arg(long, help_heading = HEADING, value_name = "FILE|NAME")]
     pub map: Option<PathBuf>,
-    /// The effort is read from the columns `<joint>.COLUMN`
-    #[arg(long, value_name = "COLUMN", default_value = "effort")]
-    pub effort: String,
+    /// The effort is read from the columns `<joint>.COLUMN` [default: effort]
+    #[arg(long, help_heading = HEADING, value_name = "COLUMN")]
+    pub effort: Option<String>,
     /// The topic of a bag whose joint states are read [default: /joint_states, or the only one]
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, help_heading = HEADING, value_name = "NAME")]
     pub topic: Option<String>,
     /// Episodes of a dataset of LeRobot, such as 0-4,7; each is a run [default: all]
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = episodes)]
+    #[arg(long, help_heading = HEADING, value_name = "LIST", value_delimiter = ',', value_parser = episodes)]
     pub episodes: Vec<RangeInclusive<u64>>,
     /// Read a damaged log up to where it is damaged, and say where; without it, it is refused
-    #[arg(long)]
+    #[arg(long, help_heading = HEADING)]
     pub until_damage: bool,
     /// Which part of each log is read
     #[command(flatten)]
@@ -42,10 +45,10 @@ pub struct ColumnArguments {
 #[derive(Debug, Clone, Copy, Default, clap::Args)]
 pub struct ExcerptArguments {
     /// Read every log from so many seconds after its first row on
-    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    #[arg(long, help_heading = HEADING, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
     pub from_s: Option<f64>,
     /// Read every log up to so many seconds after its first row
-    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
+    #[arg(long, help_heading = HEADING, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
     pub to_s: Option<f64>,
 }
 
@@ -63,12 +66,12 @@ impl ExcerptArguments {
 pub struct LengthArguments {
     /// All samples take part, and memory grows with them; without it, of logs that are together longer than 20
     /// minutes of seven joints at 500 Hz as much as that does, in stretches of a minute that are spread evenly
-    #[arg(long)]
+    #[arg(long, help_heading = HEADING)]
     pub all_samples: bool,
 }
 
 /// How the logs of a command are read.
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Clone, clap::Args)]
 pub struct LogArguments {
     /// How their columns are called
     #[command(flatten)]
@@ -148,7 +151,7 @@ impl ColumnArguments {
     }
 
     /// The preset of the given name, unless a file has that name.
-    fn preset(&self) -> Option<&'static str> {
+    pub fn preset(&self) -> Option<&'static str> {
         let path = self.map.as_deref().filter(|path| !path.exists())?;
         logs::preset_names().into_iter().find(|name| path.as_os_str() == *name)
     }
@@ -190,6 +193,7 @@ impl Reader<'_> {
     /// How a log, or an episode of a dataset, is read with the map of a file, or without one.
     pub fn options<'a>(&'a self, episode: RunAtPath<'a>) -> ReadOptions<'a> {
         let ColumnArguments { effort, topic, excerpt, .. } = self.arguments;
+        let effort = effort.as_deref().unwrap_or(ReadOptions::default().effort);
         let (topic, excerpt) = (topic.as_deref(), excerpt.excerpt());
         let RunAtPath { number, dataset } = episode;
         ReadOptions { map: self.map.as_ref(), effort, topic, excerpt, episode: number, dataset }

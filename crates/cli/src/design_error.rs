@@ -13,6 +13,20 @@ pub enum DesignError {
         /// What was found.
         reason: String,
     },
+    /// A file that was diagnosed is no longer there.
+    #[error(
+        "{}: {} was made from it and it is not there; {option} names where it is now",
+        path.display(),
+        diagnosis.display()
+    )]
+    Gone {
+        /// The file.
+        path: PathBuf,
+        /// The diagnosis.
+        diagnosis: PathBuf,
+        /// The option that names it.
+        option: &'static str,
+    },
     /// The diagnosis leaves nothing open.
     #[error(
         "{}: every cause in it stands alone and is determined, there is nothing to tell apart",

@@ -146,6 +146,9 @@ pub enum CliError {
         /// The log.
         path: PathBuf,
     },
+    /// Nothing says which robot is meant.
+    #[error("a robot was expected, as --robot FILE or as the one of --diagnosis DIR")]
+    NoRobot,
     /// A file that may have been worked on is there.
     #[error("{}: it is there already", path.display())]
     Exists {
@@ -239,6 +242,7 @@ impl CliError {
             | Self::NotOpened { .. }
             | Self::Incomplete { .. }
             | Self::Exists { .. }
+            | Self::NoRobot
             | Self::Signal { .. } => 2,
             Self::Learner(error) => match error {
                 LearnerError::Log(LogError::Unwritable { .. })
@@ -333,7 +337,7 @@ impl CliError {
                     "plumbline learn and track write models; without --learned they are learned",
                 )
             }
-            Self::UnknownEffect { .. } => Some("plumbline effects lists every effect"),
+            Self::UnknownEffect { .. } => Some("plumbline explain lists every effect"),
             Self::NoJoints { .. } => {
                 Some("give the robot with --robot, and --map if the columns have other names")
             }

@@ -10,19 +10,22 @@ use crate::effect_name::find_effect;
 use crate::invocation;
 use crate::output::display_path;
 
+/// What these options stand below in a help text.
+const HEADING: &str = "Which part of the robot is meant, and its meshes";
+
 /// Which part of a robot is meant, and where its meshes are.
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Clone, clap::Args)]
 pub struct PartArguments {
     /// The joints that move, with commas between them; the others are locked at zero, or where
     /// `locked` in the robot.toml says
-    #[arg(long, value_name = "JOINT", value_delimiter = ',')]
+    #[arg(long, help_heading = HEADING, value_name = "JOINT", value_delimiter = ',')]
     pub joints: Vec<String>,
     /// Folder of a package that meshes of the URDF are in; may be said again. ROS_PACKAGE_PATH and
     /// AMENT_PREFIX_PATH are looked through as well
-    #[arg(long, value_name = "NAME=DIR", value_parser = package)]
+    #[arg(long, help_heading = HEADING, value_name = "NAME=DIR", value_parser = package)]
     pub package: Vec<(String, PathBuf)>,
     /// Meshes may lie outside of the folder of the URDF and of packages
-    #[arg(long)]
+    #[arg(long, help_heading = HEADING)]
     pub allow_outside: bool,
 }
 

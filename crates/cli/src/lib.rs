@@ -8,32 +8,36 @@
 //! written and recorded, and what `design` and `track` do, for whoever has them in memory; and what
 //! `plumbline-bench` shares: the command line, the output folder, progress and errors.
 
+mod after_help;
 mod arguments;
 mod columns;
 mod commands;
 mod design_error;
+mod diagnosed_input;
 mod effect_facts;
 mod effect_name;
 mod error;
 mod exit_status;
+mod help_texts;
 mod input;
 mod input_warnings;
 mod invocation;
 mod loss;
 mod messages;
 mod output;
+mod path;
 mod progress;
 mod quiet;
 mod watch;
 
 use std::ffi::OsString;
 
-use clap::{CommandFactory, Parser};
+use clap::FromArgMatches;
 
-use crate::arguments::{Arguments, Command, LogCommand, RobotCommand};
+use crate::arguments::{Arguments, Command, LogCommand, RobotCommand, command};
 use crate::commands::{
-    compare, completions, demo, design, diagnose, effects, explain, export, learn, log_info, man,
-    replay, robot_check, robot_init, run as run_scenario, schema, simulate, track, view,
+    compare, completions, demo, design, diagnose, explain, export, learn, log_info, man, replay,
+    robot_check, robot_init, run as run_scenario, schema, simulate, track, view,
 };
 use crate::exit_status::ExitStatus;
 
@@ -50,6 +54,7 @@ pub use crate::commands::run::run_folder::{
 };
 pub use crate::commands::schema::print_schema;
 pub use crate::commands::track::tracking_result::{TrackingRequest, TrackingResult};
+pub use crate::diagnosed_input::options_of_columns;
 pub use crate::effect_name::find_effect;
 pub use crate::error::CliError;
 pub use crate::input::{
@@ -69,7 +74,9 @@ pub use crate::watch::Watch;
 ///
 /// A command line that cannot be understood, or that asks for help, ends the process.
 pub fn main(command_line: Vec<OsString>) -> u8 {
-    let arguments = Arguments::parse_from(&command_line);
+    let matches = command().get_matches_from(&command_line);
+    let arguments = Arguments::from_arg_matches(&matches)
+        .unwrap_or_else(|error| error.format(&mut command()).exit());
     invocation::keep("plumbline", command_line);
     match run(&arguments) {
         Ok(status) => status.code(),
@@ -90,7 +97,6 @@ fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         Command::Robot(RobotCommand::Check(arguments)) => robot_check::run(arguments),
         Command::Robot(RobotCommand::Init(arguments)) => robot_init::run(arguments),
         Command::Log(LogCommand::Info(arguments)) => log_info::run(arguments),
-        Command::Effects(arguments) => effects::run(arguments),
         Command::Explain(arguments) => explain::run(arguments),
         Command::Export(arguments) => export::run(arguments),
         Command::Learn(arguments) => learn::run(arguments),
@@ -99,7 +105,7 @@ fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         Command::Track(arguments) => track::run(arguments),
         Command::View(arguments) => view::run(arguments),
         Command::Schema(arguments) => schema::run(arguments),
-        Command::Completions(arguments) => completions::run(arguments, Arguments::command()),
-        Command::Man(arguments) => man::run(arguments, Arguments::command()),
+        Command::Completions(arguments) => completions::run(arguments, command()),
+        Command::Man(arguments) => man::run(arguments, command()),
     }
 }

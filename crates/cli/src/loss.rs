@@ -1,12 +1,12 @@
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use exchange::Export;
 use logs::Run;
 use robot::{Loaded, Robot};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::columns::LogArguments;
+use crate::diagnosed_input::DiagnosedInput;
 use crate::error::CliError;
 use crate::input::PartArguments;
 use crate::input_warnings::correct_runs;
@@ -64,8 +64,11 @@ impl LossArguments {
         if self.logs.is_empty() {
             return Ok(None);
         }
-        let (nominal, name) = self.nominal(path, loaded, part)?;
-        let runs = self.reading.read_runs(&self.logs, &loaded.robot)?;
+        let diagnosed = DiagnosedInput::read(&path.with_file_name("diagnosis.json")).ok();
+        let (nominal, name) = self.nominal(path, loaded, part, diagnosed.as_ref())?;
+        let named = diagnosed.as_ref().map(|input| input.columns(&self.reading)).transpose()?;
+        let reading = named.as_ref().unwrap_or(&self.reading);
+        let runs = reading.read_runs(&self.logs, &loaded.robot)?;
         let runs = correct_runs(loaded, &runs).unwrap_or(runs);
         let error = |model, described_by, robot: &Robot| {
             ModelError::measure(model, described_by, robot, loaded.control.rate_hz, &runs)
@@ -84,22 +87,24 @@ impl LossArguments {
         }))
     }
 
-    /// The robot before the findings, and where it is described.
+    /// The robot before the findings, with the joints of the extended one, and where it is described.
     fn nominal(
         &self,
         path: &Path,
         loaded: &Loaded,
         part: &PartArguments,
+        diagnosed: Option<&DiagnosedInput>,
     ) -> Result<(Robot, String), CliError> {
-        let found = self
-            .nominal
-            .clone()
-            .or_else(|| diagnosed_robot(&path.with_file_name("diagnosis.json")));
+        let found = self.nominal.clone().or_else(|| diagnosed?.unchanged_robot());
         let Some(file) = found else {
             let name = display_path(&loaded.urdf_path);
             warn(&format!("nominal is what {name} says alone; --nominal names another robot"));
             return Ok((loaded.robot_in_urdf.clone(), name));
         };
+        let mut part = diagnosed.map_or_else(|| part.clone(), |input| input.part(part));
+        if part.joints.is_empty() && !loaded.part.is_whole() {
+            part.joints = loaded.robot.joint_names().map(str::to_owned).collect();
+        }
         let nominal = part.load(&file)?.robot;
         if !nominal.joint_names().eq(loaded.robot.joint_names()) {
             return Err(CliError::OtherJoints { path: file, expected: path.to_owned() });
@@ -146,31 +151,4 @@ impl Loss {
             table(&header, rows)
         )
     }
-}
-
-/// The part of a diagnosis.json that is read here.
-#[derive(Deserialize)]
-struct DiagnosisSources {
-    provenance: Provenance,
-}
-
-#[derive(Deserialize)]
-struct Provenance {
-    files: Vec<SourceFile>,
-}
-
-/// A file that a diagnosis has read.
-#[derive(Deserialize)]
-struct SourceFile {
-    role: String,
-    path: PathBuf,
-    sha256: String,
-}
-
-/// The file of the robot that was diagnosed, if it is unchanged.
-fn diagnosed_robot(diagnosis: &Path) -> Option<PathBuf> {
-    let sources: DiagnosisSources = serde_json::from_slice(&fs::read(diagnosis).ok()?).ok()?;
-    let robot = sources.provenance.files.into_iter().find(|file| file.role == "robot")?;
-    let is_as_it_was = report::sha256_of(&robot.path).is_ok_and(|hash| hash == robot.sha256);
-    is_as_it_was.then_some(robot.path)
 }

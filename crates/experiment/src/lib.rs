@@ -42,7 +42,9 @@ pub use models::median_time::median_time_s;
 pub use models::relevance::Relevance;
 pub use models::residual::{Residual, ResidualJoint, learn_residual};
 pub use progress::Progress;
-pub use replay::forward_gap::{Drift, ForwardGap, ForwardWindow, forward_gap, forward_gap_of_logs};
+pub use replay::forward_gap::{
+    Drift, ForwardGap, ForwardWindow, forward_gap, forward_gap_of_logs, tip_drift_rms_m,
+};
 pub use replay::record_diagnosis::{DiagnosedLogs, record_diagnosis};
 pub use scenario::feedforward_kind::FeedforwardKind;
 pub use scenario::tracking_scenario::{TrackingScenario, document_at, known_runs, motion_at};

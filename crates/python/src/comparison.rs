@@ -45,6 +45,7 @@ pub fn compare(
     let (first, other) = (request(before), request(after));
     let (runs, settings) = ([first.runs()?, other.runs()?], first.settings()?);
     let origins = [first.provenance(&runs[0])?, other.provenance(&runs[1])?];
+    let inputs = [first.input(), other.input()];
     let about = &robot.loaded.robot;
     let sets = [runs[0].as_slice(), runs[1].as_slice()];
     let compared =
@@ -52,8 +53,8 @@ pub fn compare(
     let compared = compared.map_err(exception)?;
     let alike = json_of(&compared.alike)?;
     let extended = robot.with_robot(compared.before.extended.clone());
-    let ([before, after], [origin, other]) = (runs, origins);
-    let before = PyDiagnosis::new(py, robot, before, compared.before, None, origin)?;
-    let after = PyDiagnosis::new(py, &extended, after, compared.after, None, other)?;
+    let ([before, after], [origin, other], [input, other_input]) = (runs, origins, inputs);
+    let before = PyDiagnosis::new(py, robot, before, compared.before, None, origin, input)?;
+    let after = PyDiagnosis::new(py, &extended, after, compared.after, None, other, other_input)?;
     Ok(PyComparison { before: Py::new(py, before)?, after: Py::new(py, after)?, alike })
 }

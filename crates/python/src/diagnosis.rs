@@ -8,7 +8,7 @@ use logs::Run;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use report::{Provenance, Report};
+use report::{InputOptions, Provenance, Report};
 
 use crate::arguments::{effects, positive};
 use crate::error::exception;
@@ -25,6 +25,7 @@ pub struct PyDiagnosis {
     outcome: DiagnosisRun,
     forward: Option<ForwardGap>,
     provenance: Provenance,
+    input: InputOptions,
     doubts: Vec<String>,
 }
 
@@ -48,6 +49,23 @@ impl DiagnosisRequest<'_> {
     /// The logs as runs of the robot.
     pub fn runs(&self) -> PyResult<Vec<Run>> {
         self.logs.iter().map(|log| log.run(&self.robot.loaded.robot)).collect()
+    }
+
+    /// How the robot and the logs were read; of logs that were read in several ways, how the robot was.
+    pub fn input(&self) -> InputOptions {
+        let joints = self.robot.asked.clone().unwrap_or_default();
+        let columns: Vec<_> = self.logs.iter().filter_map(|log| log.columns()).collect();
+        let all = columns.iter().map(|columns| cli::options_of_columns(columns));
+        let all: Vec<InputOptions> = all.collect();
+        let episodes = all.iter().flat_map(|options| options.episodes.clone()).collect();
+        let without =
+            |options: &InputOptions| InputOptions { episodes: Vec::new(), ..options.clone() };
+        match all.first().map(without) {
+            Some(first) if all.iter().all(|options| without(options) == first) => {
+                InputOptions { joints, episodes, ..first }
+            }
+            _ => InputOptions { joints, ..InputOptions::default() },
+        }
     }
 
     /// How causes are searched.
@@ -109,11 +127,12 @@ impl PyDiagnosis {
         outcome: DiagnosisRun,
         forward: Option<ForwardGap>,
         provenance: Provenance,
+        input: InputOptions,
     ) -> PyResult<Self> {
         let doubts = cli::input_warnings(&robot.loaded, &runs);
         let extended = Py::new(py, robot.with_robot(outcome.extended.clone()))?;
         let loaded = Arc::clone(&robot.loaded);
-        Ok(Self { robot: loaded, extended, runs, outcome, forward, provenance, doubts })
+        Ok(Self { robot: loaded, extended, runs, outcome, forward, provenance, input, doubts })
     }
 
     /// The logs, as they were given.
@@ -124,6 +143,7 @@ impl PyDiagnosis {
     fn as_report(&self) -> Report<'_> {
         Report {
             forward: self.forward.as_ref(),
+            input: Some(&self.input),
             ..Report::new(&self.outcome, &self.robot.robot, &self.provenance)
         }
     }
@@ -154,7 +174,7 @@ pub fn diagnose(
         only_findings,
     };
     let (runs, settings) = (request.runs()?, request.settings()?);
-    let provenance = request.provenance(&runs)?;
+    let (provenance, input) = (request.provenance(&runs)?, request.input());
     let about = &robot.loaded.robot;
     let found = run(py, progress.as_ref(), |work: &Work| {
         let outcome = ::diagnosis::diagnose(about, &runs, &settings, work)?;
@@ -166,7 +186,7 @@ pub fn diagnose(
         Ok::<_, ::diagnosis::DiagnosisError>((outcome, forward))
     })?;
     let (outcome, forward) = found.map_err(exception)?;
-    PyDiagnosis::new(py, robot, runs, outcome, forward, provenance)
+    PyDiagnosis::new(py, robot, runs, outcome, forward, provenance, input)
 }
 
 #[pymethods]
@@ -218,8 +238,7 @@ impl PyDiagnosis {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<()> {
         let report = self.as_report();
-        let json = report::json(&report).map_err(exception)?;
-        cli::write_diagnosis(&folder, &self.robot, &self.outcome, &report, &json, None)
+        cli::write_diagnosis(&folder, &self.robot, &self.outcome, &report, None)
             .map_err(exception)?;
         if !recording {
             return Ok(());

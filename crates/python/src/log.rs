@@ -110,8 +110,8 @@ impl PyLog {
         if let Some(map) = &columns.map {
             options.extend(["--map".to_owned(), map.display().to_string()]);
         }
-        if columns.effort != DEFAULT_EFFORT {
-            options.extend(["--effort".to_owned(), columns.effort.clone()]);
+        if let Some(effort) = columns.effort.as_ref().filter(|effort| *effort != DEFAULT_EFFORT) {
+            options.extend(["--effort".to_owned(), effort.clone()]);
         }
         if let Some(topic) = &columns.topic {
             options.extend(["--topic".to_owned(), topic.clone()]);
@@ -120,6 +120,14 @@ impl PyLog {
             options.push("--until-damage".to_owned());
         }
         Some((path, options))
+    }
+
+    /// How the file that it is in is read.
+    pub fn columns(&self) -> Option<&ColumnArguments> {
+        match &self.source {
+            Source::File(columns, _) => Some(columns),
+            _ => None,
+        }
     }
 
     /// The samples of a channel, joint by joint.
@@ -254,7 +262,7 @@ impl PyLog {
             return Err(exception(LogError::from(FormatError::Missing { path })));
         }
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let (effort, excerpt) = (effort.to_owned(), ExcerptArguments::default());
+        let (effort, excerpt) = (Some(effort.to_owned()), ExcerptArguments::default());
         let episodes = episode.map(|episode| episode..=episode).into_iter().collect();
         let columns = ColumnArguments { map, effort, topic, episodes, until_damage, excerpt };
         Ok(Self { name, source: Source::File(columns, path) })

@@ -6,7 +6,7 @@
 //! TrackingComparison { models, sweep, .. } of runs     -> json(), page(), three figures, text()
 //! RunReport { metrics, diagnosis, .. } of a run             -> json(), page(), text()
 //! ReplayReport { runs, .. } of logs in simulation      -> json(), page()
-//! diagnosis::Comparison of two sets of logs            -> change_page()
+//! diagnosis::Comparison of two sets of logs            -> change_page(), change_json()
 //! ```
 //!
 //! None of them holds a date or a random number: the same input gives the same
@@ -25,6 +25,7 @@ mod tracking;
 
 pub use crate::diagnosis::estimate::interval;
 pub use crate::diagnosis::figure::figure;
+pub use crate::diagnosis::input_options::InputOptions;
 pub use crate::diagnosis::json::json;
 pub use crate::diagnosis::markdown::markdown;
 pub use crate::diagnosis::notebook::notebook;
@@ -33,6 +34,7 @@ pub use crate::diagnosis::report::Report;
 pub use crate::diagnosis::residual::{LengthScale, ResidualJointRow, ResidualModel};
 pub use crate::diagnosis::tables::sizes;
 pub use crate::diagnosis::text::text;
+pub use change::json::change_json;
 pub use change::page::{change_page, change_sentence, sizes_before};
 pub use learning::comparison::{ComparedJoint, DataSet, KernelRow, LearningComparison, ModelRow};
 pub use pages::{

@@ -32,6 +32,7 @@ impl DiagnosisSample {
             residual: None,
             forward: None,
             descriptions: &[],
+            input: None,
             provenance: &self.provenance,
         }
     }

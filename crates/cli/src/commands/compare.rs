@@ -2,17 +2,18 @@ use std::path::{Path, PathBuf};
 
 use diagnosis::{Comparison, Finding};
 use logs::Run;
-use report::Report;
+use report::{Provenance, Report};
 use robot::Loaded;
 
 use super::diagnose;
 use crate::columns::LogArguments;
+use crate::diagnosed_input::{options_of, provenance_in};
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::input::{RobotArguments, SearchArguments, hashes_of};
 use crate::input_warnings::input_warnings;
 use crate::messages::warn;
-use crate::output::{display_path, keep_inputs, print, refuse_file};
+use crate::output::{display_path, keep_inputs, print_answer, refuse_file};
 use crate::progress::with_bar;
 use crate::quiet::Quiet;
 
@@ -30,20 +31,26 @@ pub struct Arguments {
     /// The logs in which something may have changed
     #[arg(long, value_name = "FILE", required = true, num_args = 1..)]
     after: Vec<PathBuf>,
-    /// Folder for report.html and the two diagnoses, before and after
-    #[arg(long, value_name = "DIR")]
+    /// Folder for report.html, comparison.json and the two diagnoses, before and after
+    #[arg(long, value_name = "DIR", default_value = "out/compare")]
     out: PathBuf,
     #[command(flatten)]
     reading: LogArguments,
     #[command(flatten)]
     search: SearchArguments,
-    /// Print nothing but errors
+    /// Print comparison.json instead of the text
+    #[arg(long)]
+    json: bool,
+    /// Print nothing but errors, and the JSON if it is asked for
     #[arg(long)]
     quiet: bool,
 }
 
 /// What changed, beside the folders of the two diagnoses.
 const PAGE: &str = "report.html";
+
+/// The same for programs.
+const JSON: &str = "comparison.json";
 
 /// Folders of the two diagnoses.
 const SIDES: [&str; 2] = ["before", "after"];
@@ -61,7 +68,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let robot_files = [&arguments.robot.robot, &loaded.urdf_path];
     let given = || robot_files.into_iter().chain(&arguments.reading.columns.map);
     let inputs = || given().chain(&arguments.before).chain(&arguments.after).map(PathBuf::as_path);
-    keep_inputs(out, &[PAGE], inputs())?;
+    keep_inputs(out, &[PAGE, JSON], inputs())?;
     for side in SIDES {
         keep_inputs(&out.join(side), &diagnose::FILES, inputs())?;
     }
@@ -70,40 +77,47 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let comparison = with_bar(Quiet(arguments.quiet), |progress| {
         diagnosis::compare(&loaded.robot, sets, &settings, progress)
     })?;
-    write(arguments, &loaded, &runs, &comparison)?;
-    if !arguments.quiet {
-        print(&format!("{}\n{}", words(&comparison), closing(out)))?;
-    }
+    let json = write(arguments, &loaded, &runs, &comparison)?;
+    let json = arguments.json.then_some(json.as_str());
+    print_answer(Quiet(arguments.quiet), json, || words(&comparison), &closing(out))?;
     let changes = &comparison.after.diagnosis.findings;
     Ok(if changes.is_empty() { ExitStatus::Good } else { ExitStatus::Gap })
 }
 
-/// Writes the diagnosis of each set of logs into a folder of its own.
+/// Writes the diagnosis of each set of logs into a folder of its own, and what changed; returns its JSON.
 fn write(
     arguments: &Arguments,
     loaded: &Loaded,
     runs: &[Vec<Run>; 2],
     comparison: &Comparison,
-) -> Result<(), CliError> {
+) -> Result<String, CliError> {
     let about = Loaded { robot: comparison.before.extended.clone(), ..loaded.clone() };
+    let input = options_of(&arguments.robot.part, &arguments.reading);
     let [before, after] = SIDES;
     let sides = [(before, loaded, &comparison.before), (after, &about, &comparison.after)];
-    for ((name, loaded, outcome), runs) in sides.into_iter().zip(runs) {
+    let origin = |loaded, runs| -> Result<Provenance, CliError> {
         let mut provenance = arguments.robot.provenance(loaded, arguments.reading.map_file())?;
         provenance.files.extend(hashes_of(runs));
+        Ok(provenance)
+    };
+    let origins = [origin(loaded, &runs[0])?, origin(&about, &runs[1])?];
+    let named = origins.each_ref().map(|provenance| provenance_in(&arguments.out, provenance));
+    let json = report::change_json(comparison, named.each_ref())?;
+    for ((name, loaded, outcome), provenance) in sides.into_iter().zip(&origins) {
         let descriptions = diagnose::descriptions(loaded, outcome)?;
         let report = Report {
             descriptions: &descriptions,
-            ..Report::new(outcome, &loaded.robot, &provenance)
+            input: Some(&input),
+            ..Report::new(outcome, &loaded.robot, provenance)
         };
-        let json = report::json(&report)?;
-        diagnose::write(&arguments.out.join(name), loaded, outcome, &report, &json, None)?;
+        diagnose::write(&arguments.out.join(name), loaded, outcome, &report, None)?;
         if name == after {
             let page = report::change_page(comparison, &report)?;
-            report::write_folder(&arguments.out, &[(PAGE, page.as_bytes())])?;
+            let files = [(PAGE, page.as_bytes()), (JSON, json.as_bytes())];
+            report::write_folder(&arguments.out, &files)?;
         }
     }
-    Ok(())
+    Ok(json)
 }
 
 /// What changed and what is wrong in both, a line or a few each.

@@ -57,6 +57,17 @@ impl Arm {
         }
     }
 
+    /// The output folder where none is named, one an arm.
+    fn folder(self) -> PathBuf {
+        let name = match self {
+            Self::Wam7 => "demo",
+            Self::Ur5e => "demo_ur5e",
+            Self::Panda => "demo_panda",
+            Self::So101 => "demo_so101",
+        };
+        Path::new("out").join(name)
+    }
+
     fn sources(self) -> Sources {
         match self {
             Self::Wam7 => sources!("wam7", "wam"),
@@ -82,7 +93,7 @@ pub struct Arguments {
 
 /// Hides two effects in a simulated arm, finds them in its logs and measures what that gains.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
-    let out = arguments.output.out.clone().unwrap_or_else(|| PathBuf::from("out/demo"));
+    let out = arguments.output.out.clone().unwrap_or_else(|| arguments.robot.folder());
     let (source, sources) = (out.join("source"), arguments.robot.sources());
     report::write_folder(&source, &sources)?;
     let [.., (scenario, _)] = sources;

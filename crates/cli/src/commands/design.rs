@@ -10,21 +10,22 @@ use next_motion::DesignSettings;
 use robot::Loaded;
 
 use self::diagnosis_file::DiagnosisFile;
-use self::motion_design::{MotionDesign, MotionRequest};
+use self::motion_design::{DesignSummary, MotionDesign, MotionRequest};
 use crate::columns::LogArguments;
 use crate::design_error::DesignError;
+use crate::diagnosed_input::DiagnosedInput;
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::input::{PartArguments, positive};
-use crate::output::{print, refuse_file};
+use crate::output::{print, print_json, refuse_file};
 use crate::progress::Line;
 
 /// Arguments of `design`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The robot that was diagnosed: a robot.urdf, or a robot.toml that names one
+    /// The robot: a robot.urdf, or a robot.toml that names one; the one that was diagnosed when left out
     #[arg(long, value_name = "FILE")]
-    robot: PathBuf,
+    robot: Option<PathBuf>,
     #[command(flatten)]
     part: PartArguments,
     /// The diagnosis: its folder or its diagnosis.json
@@ -49,9 +50,12 @@ pub struct Arguments {
     #[arg(long, default_value_t = DesignSettings::default().seed)]
     seed: u64,
     /// Folder for the motion
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", default_value = "out/design")]
     out: PathBuf,
-    /// Print nothing but errors
+    /// Print JSON instead of the text
+    #[arg(long)]
+    json: bool,
+    /// Print nothing but errors, and the JSON if it is asked for
     #[arg(long)]
     quiet: bool,
 }
@@ -59,13 +63,16 @@ pub struct Arguments {
 /// Searches the motion that settles what a diagnosis left open, and writes it.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     refuse_file(&arguments.out)?;
-    let loaded = arguments.part.load(&arguments.robot)?;
-    let read = |path: &PathBuf| {
+    let input = arguments.diagnosis.as_deref().map(DiagnosedInput::read).transpose()?;
+    let robot_file = robot_file(arguments, input.as_ref())?;
+    let part = input.as_ref().map(|input| input.part(&arguments.part));
+    let loaded = part.as_ref().unwrap_or(&arguments.part).load(&robot_file)?;
+    let read = |(path, input): (&PathBuf, &DiagnosedInput)| {
         let diagnosis = DiagnosisFile::read(path, &loaded.robot)?;
-        let runs = read_diagnosed_runs(arguments, &diagnosis, &loaded)?;
+        let runs = read_diagnosed_runs(arguments, &diagnosis, input, &loaded)?;
         Ok::<_, CliError>((diagnosis, runs))
     };
-    let diagnosed = arguments.diagnosis.as_ref().map(read).transpose()?;
+    let diagnosed = arguments.diagnosis.as_ref().zip(input.as_ref()).map(read).transpose()?;
     let request = MotionRequest {
         loaded: &loaded,
         diagnosed: diagnosed.as_ref().map(|(diagnosis, runs)| (diagnosis, runs.as_slice())),
@@ -80,29 +87,50 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     line.finish();
     let motion_design = match motion_design {
         Err(CliError::Design(nothing @ DesignError::NothingOpen { .. })) => {
-            if !arguments.quiet {
-                print(&format!("{nothing}\n"))?;
-            }
+            say(arguments, &DesignSummary::default(), || format!("{nothing}\n"))?;
             return Ok(ExitStatus::Good);
         }
         motion_design => motion_design?,
     };
-    let written = motion_design.write(&arguments.out, &arguments.robot)?;
-    if !arguments.quiet {
-        print(&format!("{}{}", motion_design.text(), written.as_deref().unwrap_or_default()))?;
-    }
+    let written = motion_design.write(&arguments.out, &robot_file)?;
+    let summary = motion_design.summary(written.as_ref().map(|_| arguments.out.as_path()));
+    say(arguments, &summary, || {
+        format!("{}{}", motion_design.text(), written.as_deref().unwrap_or_default())
+    })?;
     Ok(if written.is_some() { ExitStatus::Good } else { ExitStatus::Gap })
 }
 
-/// The logs that were diagnosed.
+/// Text or JSON on the standard output.
+fn say(
+    arguments: &Arguments,
+    summary: &DesignSummary,
+    text: impl FnOnce() -> String,
+) -> Result<(), CliError> {
+    match (arguments.json, arguments.quiet) {
+        (true, _) => print_json(summary),
+        (false, true) => Ok(()),
+        (false, false) => print(&text()),
+    }
+}
+
+/// The robot of the command line, or the one that was diagnosed.
+fn robot_file(arguments: &Arguments, input: Option<&DiagnosedInput>) -> Result<PathBuf, CliError> {
+    match (&arguments.robot, input) {
+        (Some(file), _) => Ok(file.clone()),
+        (None, Some(input)) => Ok(input.robot()?),
+        (None, None) => Err(CliError::NoRobot),
+    }
+}
+
+/// The logs that were diagnosed, read as they were then.
 fn read_diagnosed_runs(
     arguments: &Arguments,
     diagnosis: &DiagnosisFile,
+    input: &DiagnosedInput,
     loaded: &Loaded,
 ) -> Result<Vec<Run>, CliError> {
-    let named = diagnosis.logs();
-    let paths = if arguments.logs.is_empty() { &named } else { &arguments.logs };
-    let runs = arguments.reading.read_runs(paths, &loaded.robot)?;
+    let paths = if arguments.logs.is_empty() { input.logs()? } else { arguments.logs.clone() };
+    let runs = input.reading(&arguments.reading)?.read_runs(&paths, &loaded.robot)?;
     match runs.iter().find(|run| !diagnosis.knows(&run.sha256)) {
         Some(other) => Err(DesignError::OtherLog { path: other.source.clone() }.into()),
         None => Ok(runs),

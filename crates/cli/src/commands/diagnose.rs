@@ -13,6 +13,7 @@ use robot::{Loaded, Robot};
 use residual::ResidualFile;
 
 use crate::columns::LogArguments;
+use crate::diagnosed_input::{json_in, options_of};
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::input::{RobotArguments, SearchArguments, hashes_of};
@@ -40,7 +41,7 @@ pub struct Arguments {
     #[arg(long = "log", value_name = "FILE", required = true, num_args = 1..)]
     logs: Vec<PathBuf>,
     /// Folder for report.html, recording.rrd, figure.svg, diagnosis.json and extended.toml
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", default_value = "out/diagnose")]
     out: PathBuf,
     #[command(flatten)]
     reading: LogArguments,
@@ -111,10 +112,10 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         residual: residual.as_ref().map(|learned| &learned.model),
         forward: forward.as_ref(),
         descriptions: &descriptions(&loaded, &outcome)?,
+        input: Some(&options_of(&arguments.robot.part, &arguments.reading)),
         ..Report::new(&outcome, &loaded.robot, &provenance)
     };
-    let json = report::json(&report)?;
-    write(&arguments.out, &loaded, &outcome, &report, &json, residual.as_ref())?;
+    let json = write(&arguments.out, &loaded, &outcome, &report, residual.as_ref())?;
     let diagnosed = DiagnosedLogs {
         loaded: &loaded,
         runs: read,
@@ -179,7 +180,7 @@ pub fn descriptions(
     all.map(|format| Ok((format, export_extended(loaded, outcome, format)?))).collect()
 }
 
-/// Writes an output folder, all but the recording.
+/// Writes an output folder, all but the recording, and returns its `diagnosis.json`.
 ///
 /// # Errors
 ///
@@ -189,9 +190,9 @@ pub fn write(
     loaded: &Loaded,
     outcome: &diagnosis::DiagnosisRun,
     report: &Report,
-    json: &str,
     residual: Option<&ResidualFile>,
-) -> Result<(), CliError> {
+) -> Result<String, CliError> {
+    let json = json_in(out, report)?;
     let extended = extended_toml(loaded, &outcome.extended, &outcome.diagnosis)?;
     let (html, figure) = (report::html(report)?, report::figure(report)?);
     let urdf = source(loaded)?;
@@ -214,7 +215,7 @@ pub fn write(
         // One of an earlier diagnosis would be about another extended robot.
         let _ = std::fs::remove_file(out.join(residual::FILE));
     }
-    Ok(())
+    Ok(json)
 }
 
 /// Writes the recording and returns its path. A recording that cannot be made gives a warning, as

@@ -1,12 +1,18 @@
-use anstyle::Style;
-use catalogue::EffectEntry;
+mod page;
+mod rows;
 
-use crate::commands::effects as list;
-use crate::effect_facts::facts;
+use std::collections::BTreeMap;
+
+use anstyle::Style;
+use catalogue::{EffectEntry, Family};
+use serde::Serialize;
+
+use self::rows::{EffectRow, rows};
+use crate::effect_facts::{facts, meaning};
 use crate::effect_name::find_effect;
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
-use crate::output::print;
+use crate::output::{print, print_json, table};
 
 /// Columns of the values on the page.
 const WIDTH: usize = 79;
@@ -14,19 +20,101 @@ const WIDTH: usize = 79;
 /// Arguments of `explain`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// Code or name of the effect, such as FR02 or coulomb_friction
+    /// Code or name of the effect, such as FR02 or coulomb_friction; all are listed where it is left out
     effect: Option<String>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+    /// Print a page in Markdown with all that is known of every effect
+    #[arg(long, conflicts_with_all = ["json", "effect"])]
+    markdown: bool,
 }
 
-/// Prints what is known about one effect; without one, what `effects` prints.
+/// Prints what is known about one effect; without one, the list of all, family by family.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
-    let Some(name) = &arguments.effect else {
-        return list::run(&list::Arguments { json: false, markdown: false });
-    };
-    print(&explanation(find_effect(name)?.entry()))?;
+    match &arguments.effect {
+        Some(name) => {
+            let entry = find_effect(name)?.entry();
+            match arguments.json {
+                true => print_json(&Effect::new(entry))?,
+                false => print(&explanation(entry))?,
+            }
+        }
+        None if arguments.json => {
+            print_json(&Effects { schema: "plumbline.effects/1", effects: rows() })?;
+        }
+        None if arguments.markdown => print(&page::page(&rows()))?,
+        None => print(&list())?,
+    }
     Ok(ExitStatus::Good)
 }
 
+/// What `--json` prints of all effects.
+#[derive(Serialize)]
+struct Effects {
+    schema: &'static str,
+    effects: Vec<EffectRow>,
+}
+
+/// What `--json` prints of one effect.
+#[derive(Serialize)]
+struct Effect {
+    schema: &'static str,
+    code: &'static str,
+    name: &'static str,
+    family: Family,
+    summary: &'static str,
+    equation: &'static str,
+    /// Each by its name, with its unit and range.
+    parameters: BTreeMap<&'static str, String>,
+    signature: &'static str,
+    needs: &'static str,
+    confused_with: Vec<&'static str>,
+    told_apart_by: &'static str,
+    diagnosed: bool,
+    simulated: bool,
+    compensated: bool,
+    source: &'static str,
+}
+
+impl Effect {
+    fn new(entry: &EffectEntry) -> Self {
+        Self {
+            schema: "plumbline.effect/1",
+            code: entry.kind.code(),
+            name: entry.kind.name(),
+            family: entry.kind.family(),
+            summary: entry.summary,
+            equation: entry.equation,
+            parameters: entry.parameters.iter().map(|p| (p.name, meaning(p))).collect(),
+            signature: entry.signature,
+            needs: entry.needs,
+            confused_with: entry.confused_with.iter().map(|kind| kind.name()).collect(),
+            told_apart_by: entry.told_apart_by,
+            diagnosed: diagnosis::how_found(entry.kind).is_ok(),
+            simulated: true,
+            compensated: effects::remedy(entry.kind).is_ok(),
+            source: entry.source,
+        }
+    }
+}
+
+/// The list of all effects, family by family.
+fn list() -> String {
+    let yes_or_no = |is: bool| if is { "yes" } else { "no" }.to_owned();
+    let cells = rows().into_iter().map(|row| {
+        let [diagnosed, compensated] = [row.diagnosed, row.compensated].map(yes_or_no);
+        vec![row.code.into(), row.name.into(), diagnosed, compensated, row.summary.into()]
+    });
+    let list = table(&["code", "effect", "diagnosed", "compensated", "what it is"], cells);
+    let families = Family::ALL.map(|f| format!("{} {}", f.letters(), f.name()));
+    format!(
+        "{list}\n  {}\n  All can be simulated. Of each, plumbline explain CODE says more.\n",
+        families.join(", ")
+    )
+}
+
+/// What is known about one effect.
 fn explanation(entry: &EffectEntry) -> String {
     let bold = Style::new().bold();
     let mut text = format!("{bold}{}{bold:#} ({})\n\n", entry.kind.label(), entry.kind);
@@ -45,7 +133,26 @@ mod tests {
     use catalogue::EffectKind;
 
     use super::*;
-    use crate::effect_facts::meaning;
+
+    #[test]
+    fn the_list_fits_a_terminal_of_100_columns_and_says_every_effect_once() {
+        let text = list();
+        assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+        for kind in EffectKind::ALL {
+            assert_eq!(text.matches(&format!(" {}  {} ", kind.code(), kind.name())).count(), 1);
+        }
+    }
+
+    #[test]
+    fn what_is_diagnosed_is_what_has_a_model_and_families_stand_together() {
+        let rows = rows();
+        let diagnosed = rows.iter().filter(|r| r.diagnosed).map(|r| r.name);
+        let diagnosed: Vec<&str> = diagnosed.collect();
+        // Ripple, disturbances and saturation are found without columns.
+        assert_eq!(diagnosed.len(), effects::MODELLED.len() + 3);
+        assert!(effects::MODELLED.iter().all(|kind| diagnosed.contains(&kind.name())));
+        assert!(rows.is_sorted_by_key(|r| (r.family, r.code)));
+    }
 
     #[test]
     fn every_effect_says_what_it_is_made_of_and_whether_it_is_diagnosed() {

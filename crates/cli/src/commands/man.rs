@@ -11,7 +11,7 @@ use crate::output::create_folder;
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Folder for the pages
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", default_value = "out/man")]
     out: PathBuf,
 }
 

@@ -5,7 +5,6 @@ pub mod completions;
 pub mod demo;
 pub mod design;
 pub mod diagnose;
-pub mod effects;
 pub mod explain;
 pub mod export;
 pub mod learn;

@@ -6,53 +6,70 @@ use robot::{Loaded, PdGain, Robot};
 use simulator::{ForwardReplay, MotionReplay, SimulatorError, Windows};
 
 use crate::columns::LogArguments;
+use crate::commands::run::run_folder::EXTENDED;
+use crate::diagnosed_input::DiagnosedInput;
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::input::{PartArguments, hashes_of, positive, provenance};
 use crate::input_warnings::correct_runs;
-use crate::output::{create_folder, display_path, print, table};
+use crate::output::{create_folder, display_path, print_answer, table};
+use crate::quiet::Quiet;
 
 /// Arguments of `replay`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The robot whose simulation is looked at: a robot.urdf, or a robot.toml that names one
     #[arg(long, value_name = "FILE")]
-    robot: PathBuf,
+    robot: Option<PathBuf>,
+    /// A diagnosis, its folder or its diagnosis.json: its extended robot is looked at and its logs are read, where
+    /// --robot and --log say nothing else
+    #[arg(long, value_name = "DIR")]
+    diagnosis: Option<PathBuf>,
     #[command(flatten)]
     part: PartArguments,
     /// Logs (CSV, Parquet, NumPy, MATLAB, HDF5, bags of ROS 2), one run each
-    #[arg(long = "log", value_name = "FILE", required = true, num_args = 1..)]
+    #[arg(long = "log", value_name = "FILE", required_unless_present = "diagnosis", num_args = 1..)]
     logs: Vec<PathBuf>,
     /// Folder for report.html, replay.json and the simulated motion and torque of every run
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", default_value = "out/replay")]
     out: PathBuf,
     /// Lengths of time that the simulation is rolled forward, with commas between them
     #[arg(long, value_name = "MS", value_delimiter = ',', default_values_t = [50.0, 200.0, 1000.0], value_parser = positive, allow_negative_numbers = true)]
     window_ms: Vec<f64>,
     #[command(flatten)]
     reading: LogArguments,
+    /// Print replay.json instead of the tables
+    #[arg(long)]
+    json: bool,
+    /// Print nothing but errors, and the JSON if it is asked for
+    #[arg(long)]
+    quiet: bool,
 }
 
 /// Rolls the simulation forward under recorded torque, lets it follow the recorded motion, and
 /// says how far both are from the record.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
-    let loaded = arguments.part.load(&arguments.robot)?;
-    let given = arguments.reading.read_runs(&arguments.logs, &loaded.robot)?;
+    let diagnosed = arguments.diagnosis.as_deref().map(DiagnosedInput::read).transpose()?;
+    let robot_file = robot_file(arguments, diagnosed.as_ref())?;
+    let loaded = arguments.part.load(&robot_file)?;
+    let (paths, reading) = logs_of(arguments, diagnosed.as_ref())?;
+    let given = reading.read_runs(&paths, &loaded.robot)?;
     let read = correct_runs(&loaded, &given);
     let prepared = logs::prepare(read.as_ref().unwrap_or(&given), &PrepareSettings::default())?;
     create_folder(&arguments.out)?;
     let replays: Result<Vec<Replay>, _> =
         prepared.runs.iter().map(|record| Replay::new(arguments, &loaded, record)).collect();
-    let mut replayed = Vec::new();
+    let (mut replayed, mut tables) = (Vec::new(), String::new());
     for (index, (record, replay)) in prepared.runs.iter().zip(&replays?).enumerate() {
         let namesakes = prepared.runs[..index].iter().filter(|r| r.name == record.name).count();
         let ending = if namesakes == 0 { String::new() } else { format!("_{}", namesakes + 1) };
         let name = record.name.replace(' ', "_") + &ending;
         replay.write(&arguments.out, &name)?;
-        print(&text(&loaded.robot, &name, record, replay))?;
-        replayed.push(replay.summary(name, record));
+        let summary = replay.summary(&loaded.robot, name, record);
+        tables.push_str(&text(&loaded.robot, &summary, replay));
+        replayed.push(summary);
     }
-    let mut provenance = provenance(&arguments.robot, &loaded, arguments.reading.map_file())?;
+    let mut provenance = provenance(&robot_file, &loaded, reading.map_file())?;
     provenance.files.extend(hashes_of(&given));
     let report = ReplayReport {
         robot: loaded.robot.name().to_owned(),
@@ -64,8 +81,35 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let (page, json) = (report.page()?, report.json()?);
     let files = [("report.html", page.as_bytes()), ("replay.json", json.as_bytes())];
     report::write_folder(&arguments.out, &files)?;
-    print(&closing(arguments, &prepared))?;
+    let json = arguments.json.then_some(json.as_str());
+    let told = || tables + &legend(&prepared);
+    print_answer(Quiet(arguments.quiet), json, told, &closing(arguments))?;
     Ok(ExitStatus::Good)
+}
+
+/// The robot of the command line, or the one that a diagnosis extended.
+fn robot_file(
+    arguments: &Arguments,
+    diagnosed: Option<&DiagnosedInput>,
+) -> Result<PathBuf, CliError> {
+    match (&arguments.robot, diagnosed) {
+        (Some(file), _) => Ok(file.clone()),
+        (None, Some(input)) => Ok(input.folder().join(EXTENDED)),
+        (None, None) => Err(CliError::NoRobot),
+    }
+}
+
+/// The logs of the command line, or those that were diagnosed, and how they are read.
+fn logs_of(
+    arguments: &Arguments,
+    diagnosed: Option<&DiagnosedInput>,
+) -> Result<(Vec<PathBuf>, LogArguments), CliError> {
+    let (own, reading) = (&arguments.logs, &arguments.reading);
+    Ok(match diagnosed {
+        None => (own.clone(), reading.clone()),
+        Some(input) if own.is_empty() => (input.logs()?, input.reading(reading)?),
+        Some(input) => (own.clone(), input.columns(reading)?),
+    })
 }
 
 /// What was simulated of one record.
@@ -93,10 +137,11 @@ impl Replay {
     }
 
     /// What a page tells of it.
-    fn summary(&self, name: String, record: &PreparedRun) -> ReplayedRun {
+    fn summary(&self, robot: &Robot, name: String, record: &PreparedRun) -> ReplayedRun {
         let window = |f: &ForwardReplay| ReplayedWindow {
             window_ms: (1e6 * f.window_s).round() / 1e3,
             drift_rms: f.drift_rms.clone(),
+            tip_rms_m: experiment::tip_drift_rms_m(robot, record, f),
         };
         let torque = self.motion.as_ref().map(|motion| ReplayedTorque {
             error_rms_nm: motion.torque_error_rms.clone(),
@@ -153,19 +198,25 @@ fn clock_warnings(prepared: &Prepared) -> impl Iterator<Item = &LogWarning> {
     prepared.warnings.iter().filter(of_rows)
 }
 
-/// What the columns mean, what was done to their clocks, and where the files are.
-fn closing(arguments: &Arguments, prepared: &Prepared) -> String {
+/// What the columns mean, and what was done to the clocks of the logs.
+fn legend(prepared: &Prepared) -> String {
     let mut text = String::from(
         "ms      drift after so long under the measured torque: simulated minus measured position,\n        \
-         RMS over all such windows of the log (rad or m)\n\
+         RMS over all such windows of the log (rad or m); of the tip, the origin of the last\n        \
+         link, the distance in mm\n\
          torque  simulated minus measured along the measured motion, RMS, beside the RMS of the\n        \
          measured (N·m or N)\n",
     );
     for warning in clock_warnings(prepared) {
         text.push_str(&format!("warning: {warning}\n"));
     }
-    text + &format!(
-        "\nreport                      {} (open it in a browser)\nsimulated motion and torque {}\n",
+    text
+}
+
+/// Where the files are.
+fn closing(arguments: &Arguments) -> String {
+    format!(
+        "report                      {} (open it in a browser)\nsimulated motion and torque {}\n",
         display_path(&arguments.out.join("report.html")),
         display_path(&arguments.out)
     )
@@ -180,25 +231,30 @@ fn measured_rms(record: &PreparedRun) -> Vec<f64> {
     record.joints.iter().map(|joint| rms(&joint.effort)).collect()
 }
 
-fn text(robot: &Robot, name: &str, record: &PreparedRun, replay: &Replay) -> String {
-    let Replay { forward, motion } = replay;
-    let measured = measured_rms(record);
+/// What came of a run: a row a joint and one of the tip.
+fn text(robot: &Robot, run: &ReplayedRun, replay: &Replay) -> String {
+    let forward = &replay.forward;
     let mut header = vec!["joint".to_owned()];
     header.extend(forward.iter().map(|f| format!(">{} ms", milliseconds(f))));
-    header.extend(motion.iter().flat_map(|_| [">torque".to_owned(), ">measured".to_owned()]));
-    let rows = robot.joint_names().enumerate().map(|(j, joint)| {
+    header.extend(run.torque.iter().flat_map(|_| [">torque".to_owned(), ">measured".to_owned()]));
+    let or_none = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    for (j, joint) in robot.joint_names().enumerate() {
         let mut row = vec![joint.to_owned()];
-        let drift = |f: &ForwardReplay| f.drift_rms.as_ref().map(|d| format!("{:.2e}", d[j]));
-        row.extend(forward.iter().map(|f| drift(f).unwrap_or_else(|| "-".to_owned())));
-        if let Some(motion) = motion {
-            row.push(report::significant(motion.torque_error_rms[j], 3));
-            row.push(report::significant(measured[j], 3));
+        let drift = |w: &ReplayedWindow| w.drift_rms.as_ref().map(|d| format!("{:.2e}", d[j]));
+        row.extend(run.windows.iter().map(|window| or_none(drift(window))));
+        if let Some(torque) = &run.torque {
+            row.push(report::significant(torque.error_rms_nm[j], 3));
+            row.push(report::significant(torque.measured_rms_nm[j], 3));
         }
-        row
-    });
+        rows.push(row);
+    }
+    let tip = |w: &ReplayedWindow| w.tip_rms_m.map(|m| report::significant(1e3 * m, 3));
+    let tip = run.windows.iter().map(|window| or_none(tip(window)));
+    rows.push(std::iter::once("tip (mm)".to_owned()).chain(tip).collect());
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    let mut text = format!("{name}\n{}", table(&header, rows));
-    if motion.is_none() {
+    let mut text = format!("{}\n{}", run.name, table(&header, rows));
+    if run.torque.is_none() {
         text.push_str(NO_GAINS);
     }
     for replay in forward.iter().filter(|f| !f.runaways.is_empty()) {

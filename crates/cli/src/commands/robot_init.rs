@@ -1,6 +1,5 @@
 mod excitation;
 mod guess;
-mod path;
 mod quote;
 mod text;
 
@@ -8,6 +7,7 @@ use std::path::PathBuf;
 
 use document::Document;
 use robot::Loaded;
+use serde::Serialize;
 use simulator::scenario::Scenario;
 
 use self::excitation::Excitation;
@@ -16,7 +16,8 @@ use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::input::PartArguments;
 use crate::messages::warn;
-use crate::output::{create_folder, display_path, print, table};
+use crate::output::{create_folder, display_path, print, print_json, table};
+use crate::path::relative_to;
 
 /// Rate of a control loop that the robot does not say (Hz), as the simulator has it.
 const RATE_HZ: f64 = 500.0;
@@ -32,11 +33,33 @@ pub struct Arguments {
     #[command(flatten)]
     part: PartArguments,
     /// Folder for robot.toml and scenario.toml
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", default_value = "out/robot")]
     out: PathBuf,
     /// Write over a robot.toml that is there
     #[arg(long)]
     force: bool,
+    /// Print JSON instead of the text
+    #[arg(long)]
+    json: bool,
+}
+
+/// What was guessed and written, as `--json` prints it.
+#[derive(Serialize)]
+struct Begun<'a> {
+    schema: &'static str,
+    /// The files that were written.
+    robot: String,
+    scenario: String,
+    joints: Vec<Guess<'a>>,
+}
+
+/// What is guessed of a joint.
+#[derive(Serialize)]
+struct Guess<'a> {
+    name: &'a str,
+    rotor_inertia_kg_m2: f64,
+    kp_nm_per_rad: f64,
+    kd_nm_s_per_rad: f64,
 }
 
 /// Writes a robot.toml with what the file cannot say, guessed, and a scenario that moves the robot.
@@ -55,13 +78,18 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     if !excitation.fits {
         warn(&"the limits of effort leave no room for the motion: its weight alone may reach them");
     }
-    let model = path::relative_to(&arguments.out, &loaded.urdf_path);
+    let model = relative_to(&arguments.out, &loaded.urdf_path);
     let described = text::robot_toml(&loaded, &model, &drives, rate_hz);
     let scenario = text::scenario_toml(&driven, &excitation);
     let files = [("robot.toml", described.as_bytes()), ("scenario.toml", scenario.as_bytes())];
     report::write_folder(&arguments.out, &files)?;
     try_out(arguments)?;
-    print(&summary(arguments, &loaded, &drives))?;
+    let begun = Begun::new(arguments, &loaded, &drives);
+    if arguments.json {
+        print_json(&begun)?;
+    } else {
+        print(&begun.text())?;
+    }
     Ok(ExitStatus::Good)
 }
 
@@ -75,17 +103,36 @@ fn try_out(arguments: &Arguments) -> Result<(), CliError> {
     Ok(())
 }
 
-fn summary(arguments: &Arguments, loaded: &Loaded, drives: &[DriveGuess]) -> String {
-    let rows = loaded.robot.joint_names().zip(drives).map(|(name, drive)| {
+impl<'a> Begun<'a> {
+    fn new(arguments: &Arguments, loaded: &'a Loaded, drives: &[DriveGuess]) -> Self {
+        let at = |name: &str| display_path(&arguments.out.join(name));
+        let guess = |(name, drive): (&'a str, &DriveGuess)| Guess {
+            name,
+            rotor_inertia_kg_m2: drive.rotor,
+            kp_nm_per_rad: drive.gain.kp,
+            kd_nm_s_per_rad: drive.gain.kd,
+        };
+        Self {
+            schema: "plumbline.robot_init/1",
+            robot: at("robot.toml"),
+            scenario: at("scenario.toml"),
+            joints: loaded.robot.joint_names().zip(drives).map(guess).collect(),
+        }
+    }
+
+    fn text(&self) -> String {
         let short = |value| report::significant(value, 3);
-        vec![name.to_owned(), short(drive.rotor), short(drive.gain.kp), short(drive.gain.kd)]
-    });
-    let header = ["joint", ">rotor (kg·m²)", ">kp (N·m/rad)", ">kd (N·m·s/rad)"];
-    let at = |name: &str| display_path(&arguments.out.join(name));
-    format!(
-        "{}\n{}: replace what is called a guess in it\nplumbline simulate {} --out out\n",
-        table(&header, rows),
-        at("robot.toml"),
-        at("scenario.toml")
-    )
+        let rows = self.joints.iter().map(|joint| {
+            let numbers =
+                [joint.rotor_inertia_kg_m2, joint.kp_nm_per_rad, joint.kd_nm_s_per_rad].map(short);
+            std::iter::once(joint.name.to_owned()).chain(numbers).collect()
+        });
+        let header = ["joint", ">rotor (kg·m²)", ">kp (N·m/rad)", ">kd (N·m·s/rad)"];
+        format!(
+            "{}\n{}: replace what is called a guess in it\nplumbline simulate {} --out out\n",
+            table(&header, rows),
+            self.robot,
+            self.scenario
+        )
+    }
 }

@@ -39,7 +39,8 @@ pub struct Arguments {
 /// Where a run is written and what is printed of it.
 #[derive(Debug, clap::Args)]
 pub struct Output {
-    /// Folder for all that the run makes; out/NAME where it is left out
+    /// Folder for all that the command makes [default: out/ and the name of the scenario; of demo out/demo, or
+    /// out/demo_ROBOT]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Print metrics.json instead of the text
@@ -131,12 +132,7 @@ fn next(out: &Path) -> [[String; 2]; 3] {
     [
         [
             "The motion that separates what is still open, where something is:".to_owned(),
-            format!(
-                "plumbline design --robot {} --diagnosis {} --out {}",
-                of("diagnosis/extended.toml"),
-                of("diagnosis"),
-                of("next")
-            ),
+            format!("plumbline design --diagnosis {} --out {}", of("diagnosis"), of("next")),
         ],
         [
             if recording::IS_BUILT {

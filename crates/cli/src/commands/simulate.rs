@@ -3,12 +3,14 @@ use std::path::{Path, PathBuf};
 use diagnosis::DiagnosisProgress;
 use document::Document;
 use logs::Run;
+use serde::Serialize;
 use simulator::LogFormat;
 use simulator::scenario::Scenario;
 
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
-use crate::output::{create_folder, display_path, print, table};
+use crate::output::{create_folder, display_path, print, print_json, table};
+use crate::path::near;
 use crate::progress::Bar;
 
 /// Arguments of `simulate`.
@@ -17,7 +19,7 @@ pub struct Arguments {
     /// The scenario (TOML)
     scenario: PathBuf,
     /// Folder for the logs, scenario.toml and truth.json
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", default_value = "out/simulate")]
     out: PathBuf,
     /// Seed of every random draw, instead of the scenario's
     #[arg(long, value_parser = clap::value_parser!(u64).range(0..=i64::MAX as u64))]
@@ -29,9 +31,32 @@ pub struct Arguments {
     /// Write the logs as CSV instead of Parquet
     #[arg(long)]
     csv: bool,
-    /// Print nothing but errors
+    /// Print JSON instead of the text
+    #[arg(long)]
+    json: bool,
+    /// Print nothing but errors, and the JSON if it is asked for
     #[arg(long)]
     quiet: bool,
+}
+
+/// What was written, as `--json` prints it.
+#[derive(Serialize)]
+struct SimulationSummary {
+    schema: &'static str,
+    /// The file that describes the robot.
+    robot: String,
+    /// What was put in.
+    truth: String,
+    runs: Vec<SimulatedRun>,
+}
+
+/// The log of a run.
+#[derive(Serialize)]
+struct SimulatedRun {
+    name: String,
+    rows: usize,
+    duration_s: f64,
+    log: String,
 }
 
 impl Arguments {
@@ -69,35 +94,44 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     bar.finish();
     let simulation = simulation?;
     simulator::write(&arguments.out, &scenario, &simulation, arguments.format())?;
-    if !arguments.quiet {
-        print(&summary(arguments, &scenario, &simulation.runs))?;
+    let summary = summary(arguments, &scenario, &simulation.runs);
+    if arguments.json {
+        print_json(&summary)?;
+    } else if !arguments.quiet {
+        print(&text(&summary, &arguments.out.join("diagnosis")))?;
     }
     Ok(ExitStatus::Good)
 }
 
 /// What was written. Says nothing of the effects: whoever diagnoses the logs has not seen them.
-fn summary(arguments: &Arguments, scenario: &Scenario, runs: &[Run]) -> String {
-    let rows = runs.iter().map(|run| {
-        let duration = run.time.last().unwrap_or(&0.0) - run.time.first().unwrap_or(&0.0);
-        let file = display_path(&arguments.log(&run.name));
-        vec![run.name.clone(), run.time.len().to_string(), format!("{duration:.1}"), file]
+fn summary(arguments: &Arguments, scenario: &Scenario, runs: &[Run]) -> SimulationSummary {
+    let runs = runs.iter().map(|run| SimulatedRun {
+        name: run.name.clone(),
+        rows: run.time.len(),
+        duration_s: run.time.last().unwrap_or(&0.0) - run.time.first().unwrap_or(&0.0),
+        log: display_path(&arguments.log(&run.name)),
     });
-    let runs = table(&["run", ">rows", ">seconds", "log"], rows);
-    let truth = display_path(&arguments.out.join("truth.json"));
-    let logs: Vec<String> =
-        scenario.runs().iter().map(|run| display_path(&arguments.log(&run.name))).collect();
-    format!(
-        "{runs}\nWhat was put in stands in {truth}, for scoring only. To diagnose the logs:\n  plumbline diagnose --robot {} --log {} --out {}\n",
-        display_path(&near(scenario.robot_file())),
-        logs.join(" "),
-        display_path(&arguments.out.join("diagnosis"))
-    )
+    SimulationSummary {
+        schema: "plumbline.simulation/1",
+        robot: display_path(&near(scenario.robot_file())),
+        truth: display_path(&arguments.out.join("truth.json")),
+        runs: runs.collect(),
+    }
 }
 
-/// The file as seen from here, without detours.
-fn near(file: &Path) -> PathBuf {
-    let whole = file.canonicalize().unwrap_or_else(|_| file.to_owned());
-    let here = std::env::current_dir().and_then(|here| here.canonicalize());
-    let inside = here.ok().and_then(|here| whole.strip_prefix(here).ok().map(Path::to_owned));
-    inside.unwrap_or(whole)
+/// The same as a table, and the command that diagnoses the logs into a folder.
+fn text(written: &SimulationSummary, diagnosis: &Path) -> String {
+    let rows = written.runs.iter().map(|run| {
+        let duration = format!("{:.1}", run.duration_s);
+        vec![run.name.clone(), run.rows.to_string(), duration, run.log.clone()]
+    });
+    let runs = table(&["run", ">rows", ">seconds", "log"], rows);
+    let logs: Vec<&str> = written.runs.iter().map(|run| run.log.as_str()).collect();
+    format!(
+        "{runs}\nWhat was put in stands in {}, for scoring only. To diagnose the logs:\n  plumbline diagnose --robot {} --log {} --out {}\n",
+        written.truth,
+        written.robot,
+        logs.join(" "),
+        display_path(diagnosis)
+    )
 }

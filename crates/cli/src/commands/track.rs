@@ -21,7 +21,7 @@ pub struct Arguments {
     /// The tracking scenario (TOML)
     scenario: PathBuf,
     /// Folder for the report, figures, logs, recordings and models
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", default_value = "out/track")]
     out: PathBuf,
     /// Models that were learned before: the folder models of `track` or `learn`, instead of
     /// simulating logs and learning from them

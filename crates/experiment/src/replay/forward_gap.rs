@@ -202,6 +202,17 @@ fn courses<'a>(
     replay.starts.iter().filter_map(move |&start| (1..=STEPS).map(|k| step(start, k)).collect())
 }
 
+/// How far the tip of a simulation is from the measured one at the ends of the windows in which no joint ran away: RMS
+/// of the distance between the origins of the last link (m); none where every window ran away.
+pub fn tip_drift_rms_m(robot: &Robot, record: &PreparedRun, replay: &ForwardReplay) -> Option<f64> {
+    let square = |course: Vec<[Vec<f64>; 2]>| {
+        let [simulated, measured] = course.last()?;
+        Some(distance(robot, simulated, measured).powi(2))
+    };
+    let squares: Vec<f64> = courses(replay, record).filter_map(square).collect();
+    (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
+}
+
 /// Distance of the origin of the last link between two positions of the joints (m).
 fn distance(robot: &Robot, a: &[f64], b: &[f64]) -> f64 {
     let [a, b] = [a, b].map(|q| tracking::tip_in_base(robot, &Point3::origin(), q));

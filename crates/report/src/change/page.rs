@@ -41,7 +41,7 @@ struct Side {
 /// [`ReportError::Format`].
 pub fn change_page(comparison: &Comparison, after: &Report) -> Result<String, ReportError> {
     let provenance = after.provenance.without_folders();
-    let report = Report { provenance: &provenance, ..*after };
+    let report = Report { provenance: &provenance, input: None, ..*after };
     let [before, changed] = [&comparison.before, &comparison.after].map(|side| &side.diagnosis);
     let side = |name, words, of: &diagnosis::Diagnosis| Side {
         name,

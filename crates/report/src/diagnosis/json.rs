@@ -5,6 +5,7 @@ use diagnosis::{
 use experiment::ForwardGap;
 use serde::{Serialize, Serializer};
 
+use crate::diagnosis::input_options::InputOptions;
 use crate::diagnosis::report::Report;
 use crate::diagnosis::residual::ResidualModel;
 use pages::{Provenance, ReportError, to_json};
@@ -36,6 +37,8 @@ struct Document<'a> {
     residual_model: Option<&'a ResidualModel>,
     data: &'a DataSummary,
     warnings: &'a [String],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    input: Option<&'a InputOptions>,
     provenance: &'a Provenance,
 }
 
@@ -47,8 +50,9 @@ struct Gains<'a> {
     forward: Option<&'a ForwardGap>,
 }
 
+/// A finding as it is written.
 #[derive(Serialize)]
-struct FindingByName<'a> {
+pub(crate) struct FindingByName<'a> {
     #[serde(flatten)]
     at: &'a EffectAt,
     #[serde(serialize_with = "by_name")]
@@ -78,13 +82,15 @@ impl<'a> Document<'a> {
             residual_model: report.residual,
             data: &diagnosis.data,
             warnings: &diagnosis.warnings,
+            input: report.input,
             provenance: report.provenance,
         }
     }
 }
 
 impl<'a> FindingByName<'a> {
-    fn new(finding: &'a Finding) -> Self {
+    /// A finding with its parameters by name.
+    pub(crate) fn new(finding: &'a Finding) -> Self {
         Self {
             at: &finding.at,
             parameters: &finding.parameters,
@@ -110,7 +116,11 @@ struct Value<'a> {
     determined: bool,
 }
 
-fn by_name<S: Serializer>(parameters: &[Estimate], serializer: S) -> Result<S::Ok, S::Error> {
+/// Parameters under their names.
+pub(crate) fn by_name<S: Serializer>(
+    parameters: &[Estimate],
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
     serializer.collect_map(parameters.iter().map(|p| {
         let &Estimate { name, value, ci95, noise95, nominal, unit, determined } = p;
         (name, Value { value, ci95, noise95, nominal, unit, determined })

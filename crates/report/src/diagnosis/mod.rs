@@ -3,6 +3,7 @@
 pub(crate) mod estimate;
 pub(crate) mod figure;
 pub(crate) mod forward;
+pub(crate) mod input_options;
 pub(crate) mod joint_charts;
 pub(crate) mod json;
 pub(crate) mod markdown;

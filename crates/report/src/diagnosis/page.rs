@@ -15,7 +15,7 @@ use crate::diagnosis::tables::class_of;
 /// [`ReportError::Format`].
 pub fn html(report: &Report) -> Result<String, ReportError> {
     let provenance = report.provenance.without_folders();
-    render_page(&Page::new(&Report { provenance: &provenance, ..*report })?)
+    render_page(&Page::new(&Report { provenance: &provenance, input: None, ..*report })?)
 }
 
 /// The sections of the page that the page of a run shows as well.

@@ -1,5 +1,6 @@
 use pages::Provenance;
 
+use crate::diagnosis::input_options::InputOptions;
 use crate::diagnosis::residual::ResidualModel;
 
 /// Everything that a report shows.
@@ -17,6 +18,8 @@ pub struct Report<'a> {
     pub forward: Option<&'a experiment::ForwardGap>,
     /// The extended robot in the formats of other programs, with the fate of every quantity.
     pub descriptions: &'a [(exchange::Format, exchange::Export)],
+    /// How robot and logs were read, where another command is to know it.
+    pub input: Option<&'a InputOptions>,
     /// Where the answer comes from.
     pub provenance: &'a Provenance,
 }
@@ -36,6 +39,7 @@ impl<'a> Report<'a> {
             residual: None,
             forward: None,
             descriptions: &[],
+            input: None,
             provenance,
         }
     }

@@ -116,10 +116,14 @@ impl ReplayReport {
             let cells = columns.map(|c| Cell::plain(significant(number(c), TABLE_DIGITS)));
             (name.clone(), cells.collect())
         };
+        let tip = run.windows.iter().map(|w| w.tip_rms_m.map_or(f64::NAN, |m| 1e3 * m));
+        let torques = run.torque.iter().flat_map(|_| [f64::NAN; 2]);
+        let tip = tip.chain(torques).map(|x| Cell::plain(significant(x, TABLE_DIGITS)));
+        let tip = ("tip (mm)".to_owned(), tip.collect());
         render_html(&HtmlGrid {
             corner: "Joint".to_owned(),
             header,
-            rows: self.joints.iter().enumerate().map(row).collect(),
+            rows: self.joints.iter().enumerate().map(row).chain([tip]).collect(),
         })
     }
 }
@@ -137,6 +141,8 @@ mod tests {
             "shoulder, simulated minus measured: 0.500",
             "<td class=\"n\">12.0</td>",
             "a joint ran away",
+            "tip (mm)",
+            "<td class=\"n\">8.00</td>",
             "plumbline.replay/1",
         ] {
             assert!(page.contains(expected), "{expected} is missing in {page}");

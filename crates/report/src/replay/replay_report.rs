@@ -40,6 +40,9 @@ pub struct ReplayedWindow {
     /// Simulated minus measured position at the end, RMS over all such windows, by joint (rad or
     /// m); none where every window ran away.
     pub drift_rms: Option<Vec<f64>>,
+    /// Distance of the simulated from the measured tip, the origin of the last link, at the end, RMS over all such
+    /// windows (m); none where every window ran away.
+    pub tip_rms_m: Option<f64>,
 }
 
 /// Torque of a simulation that follows the measured motion.

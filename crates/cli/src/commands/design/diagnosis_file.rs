@@ -10,6 +10,7 @@ use serde::Deserialize;
 
 use super::cause;
 use crate::design_error::DesignError;
+use crate::diagnosed_input::file_of;
 
 /// Half-width of an interval, as a share of the change that it is of, from which on a size is
 /// to be determined.
@@ -72,7 +73,6 @@ struct Provenance {
 #[derive(Debug, Deserialize)]
 struct File {
     role: String,
-    path: PathBuf,
     sha256: String,
 }
 
@@ -83,7 +83,7 @@ impl DiagnosisFile {
     ///
     /// A file that is none, or one of another robot.
     pub fn read(path: &Path, robot: &Robot) -> Result<Self, DesignError> {
-        let file = if path.is_dir() { path.join("diagnosis.json") } else { path.to_owned() };
+        let file = file_of(path);
         let text = std::fs::read_to_string(&file)
             .map_err(|e| DesignError::Diagnosis { path: file.clone(), reason: e.to_string() })?;
         Self::parse(&text, &file, robot).map(|read| Self { path: path.to_owned(), ..read })
@@ -109,12 +109,6 @@ impl DiagnosisFile {
     /// Where it was read.
     pub fn path(&self) -> PathBuf {
         self.path.clone()
-    }
-
-    /// The logs that were diagnosed.
-    pub fn logs(&self) -> Vec<PathBuf> {
-        let logs = self.provenance.files.iter().filter(|f| f.role == "log");
-        logs.map(|f| f.path.clone()).collect()
     }
 
     /// Whether a log with this checksum was diagnosed.
@@ -215,7 +209,7 @@ mod tests {
         let file = DiagnosisFile::read(path, robot).map_err(sentence)?;
         // What is wrong with a cause is told of its name.
         let _ = (file.findings(robot).is_ok(), file.goals(robot).is_ok());
-        let _ = (file.noise(), file.logs(), file.cutoff_hz(), file.knows("00"));
+        let _ = (file.noise(), file.cutoff_hz(), file.knows("00"));
         Ok(())
     }
 

@@ -14,7 +14,7 @@ use crate::error::CliError;
 use crate::output::{create_folder, display_path, table};
 
 /// Names of the files: twice the signals, and the scenario.
-const FILES: [&str; 3] = ["motion.csv", "motion.parquet", "motion.toml"];
+pub const FILES: [&str; 3] = ["motion.csv", "motion.parquet", "motion.toml"];
 
 /// Columns of a sentence.
 const WIDTH: usize = 96;
@@ -154,22 +154,43 @@ impl MotionFiles<'_> {
     }
 }
 
-/// Where each joint goes, how fast, and with how much effort.
+/// Where a joint goes, how fast, and with how much effort: rad or m, per second, N m or N.
+#[derive(Serialize)]
+pub struct JointMotion {
+    name: String,
+    starts_at: f64,
+    lowest: f64,
+    highest: f64,
+    fastest: f64,
+    most_effort: f64,
+}
+
+/// Where each joint goes in a motion.
+pub fn joint_motions(run: &Run) -> Vec<JointMotion> {
+    let largest = |x: &[f64]| x.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let of = |channels: &Channels| JointMotion {
+        name: channels.name.clone(),
+        starts_at: channels.position.first().copied().unwrap_or(0.0),
+        lowest: channels.position.iter().copied().fold(f64::INFINITY, f64::min),
+        highest: channels.position.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        fastest: channels.velocity.as_deref().map_or(0.0, largest),
+        most_effort: largest(&channels.effort),
+    };
+    run.joints.iter().map(of).collect()
+}
+
+/// The same as a table.
 fn summary(robot: &Robot, run: &Run) -> String {
-    let rows = run.joints.iter().zip(robot.links()).map(|(channels, link)| {
-        let low = channels.position.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = channels.position.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let largest = |x: &[f64]| x.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-        let speed = channels.velocity.as_deref().map_or(0.0, largest);
-        let first = channels.position.first().copied().unwrap_or(0.0);
+    let rows = joint_motions(run).into_iter().zip(robot.links()).map(|(joint, link)| {
+        let JointMotion { name, starts_at, lowest, highest, fastest, most_effort } = joint;
         let (way, torque) =
             if link.joint.kind.is_rotation() { ("rad", "N·m") } else { ("m", "N") };
-        let (moves, fastest) = match speed > 0.0 {
-            true => (format!("{low:.2} to {high:.2} {way}"), format!("{speed:.2} {way}/s")),
+        let (moves, speed) = match fastest > 0.0 {
+            true => (format!("{lowest:.2} to {highest:.2} {way}"), format!("{fastest:.2} {way}/s")),
             false => ("rests".to_owned(), String::new()),
         };
-        let effort = format!("{:.1} {torque}", largest(&channels.effort));
-        vec![channels.name.clone(), format!("{first:.2} {way}"), moves, fastest, effort]
+        let effort = format!("{most_effort:.1} {torque}");
+        vec![name, format!("{starts_at:.2} {way}"), moves, speed, effort]
     });
     table(&["joint", ">starts at", ">moves over", ">fastest", ">most effort"], rows)
 }

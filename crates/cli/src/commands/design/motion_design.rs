@@ -3,12 +3,14 @@ use std::path::Path;
 use logs::{PrepareSettings, Prepared, Run, centre_commands, prepare};
 use next_motion::{DesignSettings, DesignedMotion, ExcitationDesign, Goal, Prospect, Question};
 use robot::{Loaded, Robot};
+use serde::Serialize;
 
 use super::cause;
 use super::diagnosis_file::DiagnosisFile;
-use super::files::{self, MotionFiles};
+use super::files::{self, JointMotion, MotionFiles};
 use crate::design_error::DesignError;
 use crate::error::CliError;
+use crate::output::display_path;
 
 /// Rate of a motion where neither log nor robot says one (Hz).
 const RATE_HZ: f64 = 500.0;
@@ -31,6 +33,43 @@ pub struct MotionDesign {
     design: ExcitationDesign,
     text: String,
     rate_hz: f64,
+}
+
+/// What `design --json` prints.
+#[derive(Serialize)]
+pub struct DesignSummary {
+    schema: &'static str,
+    /// What is to be settled; none where nothing is open.
+    goals: Vec<GoalSummary>,
+    /// The motion; none where no motion settles anything.
+    motion: Option<MotionSummary>,
+}
+
+#[derive(Serialize)]
+struct GoalSummary {
+    goal: String,
+    /// Log evidence of the logs at hand (nats).
+    logs_nats: f64,
+    /// Log evidence of one run of the motion; none where no motion helps.
+    motion_nats: Option<f64>,
+    /// How often the motion is to be run; none where it settles nothing.
+    runs: Option<usize>,
+}
+
+#[derive(Serialize)]
+struct MotionSummary {
+    /// The motion as CSV, as Parquet and as a scenario.
+    files: [String; 3],
+    duration_s: f64,
+    rate_hz: f64,
+    joints: Vec<JointMotion>,
+}
+
+impl Default for DesignSummary {
+    /// Nothing is open.
+    fn default() -> Self {
+        Self { schema: "plumbline.design/1", goals: Vec::new(), motion: None }
+    }
 }
 
 impl MotionDesign {
@@ -79,6 +118,29 @@ impl MotionDesign {
     pub fn worth(&self) -> Vec<(String, f64, Option<f64>)> {
         let of = |p: &Prospect| (files::title(p.goal, &self.robot), p.before, p.after);
         self.design.prospects.iter().map(of).collect()
+    }
+
+    /// What is printed for programs, of a motion that was written into a folder.
+    pub fn summary(&self, out: Option<&Path>) -> DesignSummary {
+        let goal = |p: &Prospect| GoalSummary {
+            goal: files::title(p.goal, &self.robot),
+            logs_nats: p.before,
+            motion_nats: p.after,
+            runs: p.runs(),
+        };
+        let motion = |out: &Path| -> Option<MotionSummary> {
+            Some(MotionSummary {
+                files: files::FILES.map(|name| display_path(&out.join(name))),
+                duration_s: self.motion()?.motion.duration_s(),
+                rate_hz: self.rate_hz,
+                joints: files::joint_motions(&self.run()?),
+            })
+        };
+        DesignSummary {
+            goals: self.design.prospects.iter().map(goal).collect(),
+            motion: out.and_then(motion),
+            ..DesignSummary::default()
+        }
     }
 
     /// The motion as a log: positions, velocities, accelerations (rad or m, s) and the effort to expect (N m or N);

@@ -64,7 +64,7 @@ pub struct Arguments {
     #[command(flatten)]
     pub reading: LogArguments,
     /// Folder for report.html, learning.json, figure.svg and the models
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", default_value = "out/learn")]
     pub out: PathBuf,
     /// Print the JSON instead of the table
     #[arg(long)]

@@ -91,7 +91,7 @@ pub fn scenario_toml(robot: &Robot, excitation: &Excitation) -> String {
         robot.name().replace(['\n', '\r'], " ")
     );
     text.push_str(
-        "# plumbline effects lists what can be put in; this is dry friction.\n# [[effect]]\n",
+        "# plumbline explain lists what can be put in; this is dry friction.\n# [[effect]]\n",
     );
     if let Some(name) = robot.joint_names().next() {
         let name = quote(name).replace('\n', " ");

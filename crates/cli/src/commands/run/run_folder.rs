@@ -141,8 +141,7 @@ impl RunFolder<'_> {
             descriptions: &descriptions,
             ..Report::new(&outcome, &loaded.robot, &provenance)
         };
-        let json = report::json(&report)?;
-        diagnose::write(&self.out.join(folder), loaded, &outcome, &report, &json, None)?;
+        diagnose::write(&self.out.join(folder), loaded, &outcome, &report, None)?;
         let (verdict, told) = (report::markdown(&report), report::summarise(&report)?);
         Ok(DiagnosedRuns { outcome, verdict, told })
     }

@@ -70,7 +70,7 @@ fn plain(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::commands::effects::rows::rows;
+    use crate::commands::explain::rows::rows;
 
     #[test]
     fn the_page_has_a_section_for_every_effect_and_a_link_to_it() {
