@@ -8,7 +8,9 @@ Prints a row a parameter: its value, the half-width of its 95 % interval as that
 the processor time. What Plumbline is not asked has to be chosen here: which parameters, their bounds and start values,
 the windows, and what velocity is.
 
-    pip install plumbline "mujoco[sysid]"
+    pip install plumbline-robotics "mujoco[sysid]"
+
+``plumbline-robotics`` is not published yet: README.md says how its wheel is built.
 """
 
 import sys

@@ -6,6 +6,7 @@
 #![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
 
 mod book;
+mod distribution;
 mod documents;
 mod floors;
 mod manifests;

@@ -27,7 +27,15 @@ pub fn folders(folder: &str) -> Vec<String> {
 
 /// The Rust files in and below `folder`, named from the root.
 pub fn rust_files(folder: &str) -> Vec<String> {
+    files(folder, |path| path.ends_with(".rs"))
+}
+
+/// The files in and below `folder` (where it is there) whose path is `wanted`, named from the root.
+pub fn files(folder: &str, wanted: impl Fn(&str) -> bool) -> Vec<String> {
     let mut files = Vec::new();
+    if !root().join(folder).exists() {
+        return files;
+    }
     let mut open = vec![folder.to_owned()];
     while let Some(folder) = open.pop() {
         let entries = fs::read_dir(root().join(&folder)).unwrap().map(Result::unwrap);
@@ -35,7 +43,7 @@ pub fn rust_files(folder: &str) -> Vec<String> {
             let path = format!("{folder}/{}", entry.file_name().into_string().unwrap());
             if entry.path().is_dir() {
                 open.push(path);
-            } else if path.ends_with(".rs") {
+            } else if wanted(&path) {
                 files.push(path);
             }
         }
