@@ -84,6 +84,12 @@ fn what_cannot_be_used_is_an_exception_that_names_the_argument() {
 }
 
 #[test]
+fn frames_files_and_robots_are_read_as_they_are_asked_for() {
+    let Some(module) = module(NUMPY, "frames are") else { return };
+    hold(module.path(), "test_inputs.py", &[]);
+}
+
+#[test]
 fn the_module_does_what_it_says() {
     let Some(module) = module(NUMPY, "the module is") else { return };
     // Two episodes whose first sample differs.

@@ -89,6 +89,9 @@ class Planar(unittest.TestCase):
         self.assertAlmostEqual(change.parameters[0].nominal, 1.5, delta=0.02)
         self.assertEqual(compared.before.findings[0].parameters, self.found.findings[0].parameters)
         self.assertIn("1 changes", repr(compared))
+        for shown in (str(compared), compared._repr_html_()):
+            self.assertIn("FR02 Coulomb friction at elbow", shown)
+            self.assertIn("in the first logs", shown)
 
     def test_nothing_changed_is_no_change_and_a_log_on_both_sides_is_refused(self):
         after = [self.run_of(seed, 1.5) for seed in (4, 5)]
@@ -109,6 +112,40 @@ class Planar(unittest.TestCase):
         row, level = frame.iloc[0], self.found.findings[0].parameters[0]
         self.assertEqual((row.code, row.joint, row.parameter, row.unit), ("FR02", "elbow", "level", "N m"))
         self.assertEqual((row.value, row.low, row.high), (level.value, *level.ci95))
+
+    def test_torques_are_arrays_by_run_and_joint(self):
+        self.assertEqual([run.name for run in self.found.torques], ["run_1", "run_2", "run_3"])
+        for run, log in zip(self.found.torques, self.before):
+            self.assertEqual(run.joints, ("shoulder", "elbow"))
+            shape = (len(run.time), 2)
+            for signal in (run.position, run.velocity, run.measured, run.nominal, run.extended):
+                self.assertEqual(signal.shape, shape)
+            at = np.searchsorted(log.time, run.time - 1e-9)
+            np.testing.assert_allclose(run.time, log.time[at], atol=1e-9)
+            # Behind the low-pass of the diagnosis the noise of .05 N m is gone and the sinusoids are there.
+            np.testing.assert_allclose(run.position, log.q[at], atol=2e-3)
+            left = {name: np.sqrt(np.mean((run.measured - getattr(run, name)) ** 2, axis=0)) for name in ("nominal", "extended")}
+            self.assertGreater(left["nominal"][1], 1.2)
+            self.assertLess(left["extended"][1], 0.3)
+
+    def test_a_replay_drifts_less_with_the_findings(self):
+        log = self.before[0]
+        drifts = [
+            plumbline.replay(robot, log, window_ms=[50, 200], progress=False)
+            for robot in (self.robot, self.found.robot)
+        ]
+        nominal, extended = (replay.drift_rms["run_1"][200.0] for replay in drifts)
+        self.assertEqual(nominal.shape, (2,))
+        self.assertLess(extended[1], 0.2 * nominal[1])
+        # Whole numbers of samples of 4 ms.
+        self.assertEqual(list(drifts[0].drift_rms["run_1"]), [52.0, 200.0])
+        self.assertIn("elbow", str(drifts[0]))
+        with tempfile.TemporaryDirectory() as folder:
+            drifts[0].save(Path(folder, "out"))
+            self.assertEqual(Path(folder, "out/replay.json").read_text(), drifts[0].json())
+            self.assertTrue(Path(folder, "out/run_1_forward_200ms.parquet").exists())
+        self.assertRaisesRegex(ValueError, "^window_ms: ", plumbline.replay, self.robot, log, window_ms=[0])
+        self.assertRaisesRegex(TypeError, "^window_ms: ", plumbline.replay, self.robot, log, window_ms=50)
 
     def test_a_plot_has_torque_and_error_of_every_joint(self):
         try:

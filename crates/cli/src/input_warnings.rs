@@ -26,16 +26,22 @@ pub fn input_warnings<'a>(loaded: &Loaded, runs: impl IntoIterator<Item = &'a Ru
     warnings
 }
 
-/// The runs with those errors corrected that the inspection can correct; none without errors.
-/// Prints the warnings about the input, and each correction.
+/// The runs as [`corrected_runs`] has them, whose warnings are printed.
 pub fn correct_runs(loaded: &Loaded, runs: &[Run]) -> Option<Vec<Run>> {
-    input_warnings(loaded, runs).iter().for_each(|warning| warn(warning));
-    let CorrectedLogs { runs: read, mended, .. } = inspection::correct(&loaded.robot, runs);
-    for seen in &mended {
-        let sentence = seen.sentence(&loaded.robot, runs);
-        warn(&format!("{sentence} Until then the logs are read so."));
-    }
+    let (read, warnings) = corrected_runs(loaded, runs);
+    warnings.iter().for_each(|warning| warn(warning));
     read
+}
+
+/// The runs with those errors corrected that the inspection can correct, none without errors; and the warnings about the
+/// input, with each correction.
+pub fn corrected_runs(loaded: &Loaded, runs: &[Run]) -> (Option<Vec<Run>>, Vec<String>) {
+    let mut warnings = input_warnings(loaded, runs);
+    let CorrectedLogs { runs: read, mended, .. } = inspection::correct(&loaded.robot, runs);
+    warnings.extend(mended.iter().map(|seen| {
+        format!("{} Until then the logs are read so.", seen.sentence(&loaded.robot, runs))
+    }));
+    (read, warnings)
 }
 
 /// Memory that a diagnosis of the runs takes (GB), in digits.

@@ -42,12 +42,18 @@ use crate::commands::{
 use crate::exit_status::ExitStatus;
 
 pub use crate::columns::{ColumnArguments, ExcerptArguments};
+pub use crate::commands::compare::words as comparison_text;
 pub use crate::commands::design::diagnosis_file::DiagnosisFile;
 pub use crate::commands::design::motion_design::{MotionDesign, MotionRequest};
 pub use crate::commands::diagnose::{
     write as write_diagnosis, write_recording as record_diagnosis,
 };
+pub use crate::commands::explain::plain_explanation;
 pub use crate::commands::learn::timing::{median_query_us, median_us};
+pub use crate::commands::replay::Replays;
+pub use crate::commands::robot_init::{
+    Arguments as RobotInit, InitialisedRobot, write as init_robot,
+};
 pub use crate::commands::run::Output as RunOutput;
 pub use crate::commands::run::run_folder::{
     DiagnosedRuns, EXTENDED, RunFolder, diagnosis_files, log_file,
@@ -55,12 +61,13 @@ pub use crate::commands::run::run_folder::{
 pub use crate::commands::schema::print_schema;
 pub use crate::commands::track::tracking_result::{TrackingRequest, TrackingResult};
 pub use crate::diagnosed_input::options_of_columns;
+pub use crate::effect_facts::facts as effect_facts;
 pub use crate::effect_name::find_effect;
 pub use crate::error::CliError;
 pub use crate::input::{
     PartArguments, SearchArguments, hash, hashes_of, provenance, provenance_of,
 };
-pub use crate::input_warnings::input_warnings;
+pub use crate::input_warnings::{corrected_runs, input_warnings};
 pub use crate::invocation::{
     keep as keep_command_line, name as program_name, program as program_file,
 };

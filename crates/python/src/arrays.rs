@@ -1,7 +1,4 @@
-use numpy::{
-    PyArray, PyArray1, PyArrayDyn, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2,
-    PyUntypedArrayMethods,
-};
+use numpy::{PyArray, PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -53,23 +50,25 @@ impl TableColumns<'_> {
     }
 }
 
-/// Rows of numbers, one column a joint, as they lie in memory.
-pub struct SampleRows<'py> {
-    array: PyReadonlyArray2<'py, f64>,
+/// Rows of numbers, one column a joint, row by row.
+pub struct SampleRows {
+    numbers: Vec<f64>,
+    shape: [usize; 2],
     /// Whether one row was given, and not a table of rows.
     pub is_single: bool,
 }
 
-impl<'py> SampleRows<'py> {
+impl SampleRows {
     /// The argument `name`, of the shape (samples, joints) or (joints,).
     ///
-    /// Float64 whose rows lie one behind the other is read where it is; all other numbers are copied.
+    /// The numbers are a copy, made and checked while this thread holds the lock of the interpreter: NumPy lets another
+    /// thread write into an array that is being read.
     ///
     /// # Errors
     ///
     /// `TypeError` for what holds no real numbers, `ValueError` for another shape and for a number that
     /// is masked or not finite; both name the argument.
-    pub fn new(name: &str, value: &Bound<'py, PyAny>, columns: TableColumns<'_>) -> PyResult<Self> {
+    pub fn new(name: &str, value: &Bound<'_, PyAny>, columns: TableColumns<'_>) -> PyResult<Self> {
         let array = numbers(name, value)?;
         let shape = array.shape().to_vec();
         let n = match shape.last() {
@@ -83,39 +82,44 @@ impl<'py> SampleRows<'py> {
         };
         let is_single = shape.len() == 1;
         let rows = shape.iter().product::<usize>() / n.max(1);
-        let array = array.reshape([rows, n])?;
-        let array = array.try_readonly().map_err(|e| busy(name, &e))?;
-        finite(name, array.as_slice()?, |index| {
+        let numbers = copy(name, &array)?;
+        finite(name, &numbers, |index| {
             let row = if is_single { String::new() } else { format!("row {}, ", index / n) };
             format!("{row}{}", columns.place(index % n))
         })?;
-        Ok(Self { array, is_single })
+        Ok(Self { numbers, shape: [rows, n], is_single })
     }
 
     /// Number of columns.
     pub fn width(&self) -> usize {
-        self.array.shape()[1]
+        self.shape[1]
     }
 
     /// Number of rows.
     pub fn len(&self) -> usize {
-        self.array.shape()[0]
+        self.shape[0]
     }
 
     /// The numbers, row by row.
-    pub fn as_slice(&self) -> PyResult<&[f64]> {
-        Ok(self.array.as_slice()?)
+    pub fn as_slice(&self) -> &[f64] {
+        &self.numbers
+    }
+
+    /// The numbers, row by row.
+    pub fn into_numbers(self) -> Vec<f64> {
+        self.numbers
     }
 
     /// The columns, one a joint.
-    pub fn columns(&self) -> PyResult<Vec<Vec<f64>>> {
-        let (all, n) = (self.as_slice()?, self.array.shape()[1]);
-        Ok((0..n).map(|j| all.iter().skip(j).step_by(n.max(1)).copied().collect()).collect())
+    pub fn columns(&self) -> Vec<Vec<f64>> {
+        let n = self.width();
+        let column = |j| self.numbers.iter().skip(j).step_by(n.max(1)).copied().collect();
+        (0..n).map(column).collect()
     }
 }
 
 /// Refuses arguments that do not have as many rows as the first.
-pub fn same_rows(rows: [(&str, &SampleRows<'_>); 3]) -> PyResult<()> {
+pub fn same_rows(rows: [(&str, &SampleRows); 3]) -> PyResult<()> {
     let [(first_name, first), ..] = rows;
     let other = rows.iter().find(|(_, r)| r.len() != first.len() || r.is_single != first.is_single);
     match other {
@@ -128,9 +132,9 @@ pub fn same_rows(rows: [(&str, &SampleRows<'_>); 3]) -> PyResult<()> {
     }
 }
 
-impl SampleRows<'_> {
+impl SampleRows {
     fn shape(&self) -> &[usize] {
-        if self.is_single { &self.array.shape()[1..] } else { self.array.shape() }
+        if self.is_single { &self.shape[1..] } else { &self.shape }
     }
 }
 
@@ -147,9 +151,7 @@ pub fn vector(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
             "{name}: its shape is {shape}, (samples,) was expected"
         )));
     }
-    let array = array.reshape([array.len()])?;
-    let array: PyReadonlyArray1<'_, f64> = array.try_readonly().map_err(|e| busy(name, &e))?;
-    Ok(array.as_slice()?.to_vec())
+    copy(name, &array)
 }
 
 /// A table as an array of NumPy, made of its numbers row by row without a copy; of one row alone a
@@ -169,6 +171,12 @@ pub fn table<'py>(
 pub fn rows_of(columns: &[&[f64]]) -> Vec<f64> {
     let samples = columns.first().map_or(0, |column| column.len());
     (0..samples).flat_map(|k| columns.iter().map(move |column| column[k])).collect()
+}
+
+/// The numbers of an array in the order of C, copied.
+fn copy(name: &str, array: &Bound<'_, PyArrayDyn<f64>>) -> PyResult<Vec<f64>> {
+    let array = array.try_readonly().map_err(|e| busy(name, &e))?;
+    Ok(array.as_slice()?.to_vec())
 }
 
 /// Float64 in the order of C, of whatever NumPy takes for an array of real numbers.

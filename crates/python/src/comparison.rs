@@ -16,6 +16,8 @@ pub struct PyComparison {
     after: Py<PyDiagnosis>,
     /// As JSON the findings that both show to the same size, which are no change.
     alike: String,
+    /// What the program prints.
+    text: String,
 }
 
 /// Names what changed from the logs `before` to the logs `after`.
@@ -51,10 +53,10 @@ pub fn compare(
     let compared =
         run(py, progress.as_ref(), |work| ::diagnosis::compare(about, sets, &settings, work))?;
     let compared = compared.map_err(exception)?;
-    let alike = json_of(&compared.alike)?;
+    let (alike, text) = (json_of(&compared.alike)?, cli::comparison_text(&compared));
     let extended = robot.with_robot(compared.before.extended.clone());
     let ([before, after], [origin, other], [input, other_input]) = (runs, origins, inputs);
     let before = PyDiagnosis::new(py, robot, before, compared.before, None, origin, input)?;
     let after = PyDiagnosis::new(py, &extended, after, compared.after, None, other, other_input)?;
-    Ok(PyComparison { before: Py::new(py, before)?, after: Py::new(py, after)?, alike })
+    Ok(PyComparison { before: Py::new(py, before)?, after: Py::new(py, after)?, alike, text })
 }

@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use ::diagnosis::{DiagnosisRun, Settings};
+use ::diagnosis::{DiagnosisRun, JointTraces, RunTraces, Settings};
 use cli::{SearchArguments, hashes_of, provenance_of};
 use experiment::{DiagnosedLogs, ForwardGap};
 use logs::Run;
@@ -11,6 +11,7 @@ use pyo3::types::PyDict;
 use report::{InputOptions, Provenance, Report};
 
 use crate::arguments::{effects, positive};
+use crate::arrays::{rows_of, table};
 use crate::error::exception;
 use crate::log::PyLog;
 use crate::robot::PyRobot;
@@ -254,26 +255,31 @@ impl PyDiagnosis {
         recorded.map(|_| ()).map_err(|error| exception(*error))
     }
 
-    /// The signals behind the diagnosis: of every run its name, its times (s) and, by joint, position,
-    /// velocity, and the measured, nominal and extended torque.
+    /// The signals behind the diagnosis: of every run its name, its times (s), and by name position, velocity, and the
+    /// measured, nominal and extended torque, each of the shape (samples, joints).
     fn traces<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let vector = |values: &Vec<f64>| PyArray1::from_slice(py, values);
-        let of = |trace: &::diagnosis::RunTraces| {
-            let (run, joints) = (PyDict::new(py), PyDict::new(py));
-            for (joint, link) in trace.joints.iter().zip(self.robot.robot.links()) {
-                let signals = PyDict::new(py);
-                signals.set_item("position", vector(&joint.position))?;
-                signals.set_item("velocity", vector(&joint.velocity))?;
-                signals.set_item("measured", vector(&joint.measured))?;
-                signals.set_item("nominal", vector(&joint.nominal))?;
-                signals.set_item("extended", vector(&joint.extended))?;
-                joints.set_item(&link.joint.name, signals)?;
-            }
+        let of = |trace: &RunTraces| {
+            let run = PyDict::new(py);
             run.set_item("name", &trace.name)?;
-            run.set_item("time", vector(&trace.time))?;
-            run.set_item("joints", joints)?;
+            run.set_item("time", PyArray1::from_slice(py, &trace.time))?;
+            for (name, signal) in TRACES {
+                let columns: Vec<&[f64]> = trace.joints.iter().map(signal).collect();
+                run.set_item(name, table(py, rows_of(&columns), columns.len(), false)?)?;
+            }
             Ok(run)
         };
         self.outcome.traces.iter().map(of).collect()
     }
 }
+
+/// A signal of a joint.
+type TraceSignal = fn(&JointTraces) -> &[f64];
+
+/// Signals behind a diagnosis, by name.
+const TRACES: [(&str, TraceSignal); 5] = [
+    ("position", |joint| &joint.position),
+    ("velocity", |joint| &joint.velocity),
+    ("measured", |joint| &joint.measured),
+    ("nominal", |joint| &joint.nominal),
+    ("extended", |joint| &joint.extended),
+];

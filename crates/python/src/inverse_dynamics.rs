@@ -31,7 +31,7 @@ pub fn inverse_dynamics<'py>(
     same_rows([("q", &q), ("qd", &qd), ("qdd", &qdd)])?;
     let mut tau = vec![0.0; q.len() * n];
     if n > 0 {
-        let states = [q.as_slice()?, qd.as_slice()?, qdd.as_slice()?];
+        let states = [q.as_slice(), qd.as_slice(), qdd.as_slice()];
         let (dynamics, tau) = (robot.dynamics(), tau.as_mut_slice());
         py.detach(|| {
             let mut workspace = dynamics.workspace();

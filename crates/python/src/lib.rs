@@ -16,11 +16,13 @@ mod arrays;
 mod comparison;
 mod design;
 mod diagnosis;
+mod effect;
 mod error;
 mod inverse_dynamics;
 mod log;
 mod model;
 mod program;
+mod replay;
 mod robot;
 mod simulation;
 mod tracking;
@@ -29,12 +31,16 @@ mod work;
 /// What the Python package `plumbline` is made of.
 #[pyo3::pymodule]
 mod _plumbline {
+    use pyo3::prelude::{Bound, PyModule, PyModuleMethods, PyResult};
+
     #[pymodule_export]
     use crate::comparison::{PyComparison, compare};
     #[pymodule_export]
     use crate::design::{PyDesign, design};
     #[pymodule_export]
     use crate::diagnosis::{PyDiagnosis, diagnose};
+    #[pymodule_export]
+    use crate::effect::{PyEffect, effects, explain};
     #[pymodule_export]
     use crate::error::PlumblineError;
     #[pymodule_export]
@@ -46,9 +52,17 @@ mod _plumbline {
     #[pymodule_export]
     use crate::program::main;
     #[pymodule_export]
+    use crate::replay::{PyReplay, replay};
+    #[pymodule_export]
     use crate::robot::PyRobot;
     #[pymodule_export]
     use crate::simulation::{PySimulation, simulate};
     #[pymodule_export]
     use crate::tracking::{PyTracking, track};
+
+    /// Adds the version, which is that of the program.
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
 }

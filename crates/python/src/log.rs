@@ -2,7 +2,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use cli::{ColumnArguments, ExcerptArguments};
-use logs::{Channel, FormatError, LogError, ReadOptions, Run};
+use logs::{Channel, ColumnMap, FormatError, LogError, ReadOptions, Run};
 use numpy::PyArrayDyn;
 use pyo3::exceptions::{PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -20,8 +20,8 @@ pub struct PyLog {
 enum Source {
     /// Signals by channel, of joints that are named or those of the robot in its order.
     Arrays { time: Vec<f64>, joints: Option<Vec<String>>, signals: Signals },
-    /// Columns as a file names them.
-    Columns(BTreeMap<String, Vec<f64>>),
+    /// Columns as a file names them, or as the map of a file does.
+    Columns(BTreeMap<String, Vec<f64>>, Option<Box<ColumnMap>>),
     /// A file, which is read for a robot.
     File(ColumnArguments, PathBuf),
     /// A run that was read.
@@ -66,7 +66,7 @@ impl PyLog {
                 let own: Vec<&str> = run.joints.iter().map(|c| c.name.as_str()).collect();
                 Err(self.other_joints(&own, &joints))
             }
-            Source::Columns(columns) => self.read(columns.clone(), robot),
+            Source::Columns(columns, map) => self.read(columns.clone(), map.as_deref(), robot),
             Source::Arrays { time, joints: named, signals } => {
                 let own = named.as_ref().map_or_else(|| joints.clone(), |all| as_strs(all));
                 if joints.iter().any(|joint| !own.contains(joint)) {
@@ -85,13 +85,19 @@ impl PyLog {
                     let named = own.iter().map(|joint| format!("{joint}.{}", channel.suffix()));
                     columns.extend(named.zip(all.iter().cloned()));
                 }
-                self.read(columns, robot)
+                self.read(columns, None, robot)
             }
         }
     }
 
-    fn read(&self, columns: BTreeMap<String, Vec<f64>>, robot: &robot::Robot) -> PyResult<Run> {
-        logs::run_of_columns(&self.name, columns, robot, &ReadOptions::default()).map_err(exception)
+    fn read(
+        &self,
+        columns: BTreeMap<String, Vec<f64>>,
+        map: Option<&ColumnMap>,
+        robot: &robot::Robot,
+    ) -> PyResult<Run> {
+        let options = ReadOptions { map, ..ReadOptions::default() };
+        logs::run_of_columns(&self.name, columns, robot, &options).map_err(exception)
     }
 
     fn other_joints(&self, own: &[&str], expected: &[&str]) -> PyErr {
@@ -119,6 +125,11 @@ impl PyLog {
         if columns.until_damage {
             options.push("--until-damage".to_owned());
         }
+        let ExcerptArguments { from_s, to_s } = columns.excerpt;
+        for (option, seconds) in [("--from-s", from_s), ("--to-s", to_s)] {
+            options
+                .extend(seconds.map(|s| [option.to_owned(), s.to_string()]).into_iter().flatten());
+        }
         Some((path, options))
     }
 
@@ -136,7 +147,8 @@ impl PyLog {
             Source::Arrays { signals, .. } => {
                 signals.get(&channel).map(|all| all.iter().map(Vec::as_slice).collect())
             }
-            Source::Columns(columns) => {
+            Source::Columns(_, Some(_)) => return Err(self.unread()),
+            Source::Columns(columns, None) => {
                 let of = |joint: String| columns.get(&format!("{joint}.{}", channel.suffix()));
                 joints_of(columns).into_iter().map(|joint| of(joint).map(Vec::as_slice)).collect()
             }
@@ -147,7 +159,7 @@ impl PyLog {
 
     fn unread(&self) -> PyErr {
         PyValueError::new_err(format!(
-            "log {}: a file is read for a robot: log.on(robot) has its samples",
+            "log {}: a file or a map is read for a robot: log.on(robot) has the samples",
             self.name
         ))
     }
@@ -241,7 +253,7 @@ impl PyLog {
                     time.len()
                 )));
             }
-            signals.insert(channel, rows.columns()?);
+            signals.insert(channel, rows.columns());
         }
         Ok(Self { name: name.to_owned(), source: Source::Arrays { time, joints, signals } })
     }
@@ -249,20 +261,29 @@ impl PyLog {
     /// A log in a file, which is read when it is used with a robot.
     #[staticmethod]
     #[pyo3(signature = (path, *, map=None, effort=DEFAULT_EFFORT, topic=None, episode=None,
-        until_damage=false))]
+        from_s=None, to_s=None, until_damage=false))]
+    #[expect(clippy::too_many_arguments, reason = "they are those of Python, by name")]
     fn read_file(
         path: PathBuf,
         map: Option<PathBuf>,
         effort: &str,
         topic: Option<String>,
         episode: Option<u64>,
+        from_s: Option<f64>,
+        to_s: Option<f64>,
         until_damage: bool,
     ) -> PyResult<Self> {
+        for (name, seconds) in [("from_s", from_s), ("to_s", to_s)] {
+            if let Some(s) = seconds.filter(|s| !(s.is_finite() && *s >= 0.0)) {
+                let message = format!("{name}: found {s}, 0 or a positive number was expected");
+                return Err(PyValueError::new_err(message));
+            }
+        }
         if !path.exists() {
             return Err(exception(LogError::from(FormatError::Missing { path })));
         }
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let (effort, excerpt) = (Some(effort.to_owned()), ExcerptArguments::default());
+        let (effort, excerpt) = (Some(effort.to_owned()), ExcerptArguments { from_s, to_s });
         let episodes = episode.map(|episode| episode..=episode).into_iter().collect();
         let columns = ColumnArguments { map, effort, topic, episodes, until_damage, excerpt };
         Ok(Self { name, source: Source::File(columns, path) })
@@ -270,8 +291,14 @@ impl PyLog {
 
     /// Columns by name, as a file has them.
     #[staticmethod]
-    #[pyo3(signature = (columns, *, name="log"))]
-    fn of_columns(columns: Vec<(String, Bound<'_, PyAny>)>, name: &str) -> PyResult<Self> {
+    #[pyo3(signature = (columns, *, map=None, name="log"))]
+    fn of_columns(
+        columns: Vec<(String, Bound<'_, PyAny>)>,
+        map: Option<PathBuf>,
+        name: &str,
+    ) -> PyResult<Self> {
+        let map = map.map(|path| ColumnMap::load(&path).map(Box::new)).transpose();
+        let map = map.map_err(exception)?;
         let mut read = BTreeMap::new();
         for (column, values) in columns {
             if let Some(twice) = read.insert(column.clone(), vector(&column, &values)?) {
@@ -281,10 +308,10 @@ impl PyLog {
                 )));
             }
         }
-        if !read.contains_key("time") {
+        if map.is_none() && !read.contains_key("time") {
             return Err(PyKeyError::new_err("frame: a column time (s) was expected"));
         }
-        Ok(Self { name: name.to_owned(), source: Source::Columns(read) })
+        Ok(Self { name: name.to_owned(), source: Source::Columns(read, map) })
     }
 
     /// The log as it is read and checked for a robot.
@@ -306,9 +333,9 @@ impl PyLog {
     fn joints(&self) -> Option<Vec<String>> {
         match &self.source {
             Source::Arrays { joints, .. } => joints.clone(),
-            Source::Columns(columns) => Some(joints_of(columns)),
+            Source::Columns(columns, None) => Some(joints_of(columns)),
             Source::Run(run) => Some(run.joints.iter().map(|c| c.name.clone()).collect()),
-            Source::File(..) => None,
+            Source::Columns(..) | Source::File(..) => None,
         }
     }
 
@@ -326,9 +353,9 @@ impl PyLog {
     fn time<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let time = match &self.source {
             Source::Arrays { time, .. } => time,
-            Source::Columns(columns) => &columns["time"],
+            Source::Columns(columns, None) => &columns["time"],
             Source::Run(run) => &run.time,
-            Source::File(..) => return Err(self.unread()),
+            Source::Columns(..) | Source::File(..) => return Err(self.unread()),
         };
         table(py, time.clone(), time.len(), true)
     }

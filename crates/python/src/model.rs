@@ -40,9 +40,10 @@ impl PyModel {
         let rows = |name, value| SampleRows::new(name, value, TableColumns::Joints(&self.joints));
         let (q, qd, qdd) = (rows("q", q)?, rows("qd", qd)?, rows("qdd", qdd)?);
         same_rows([("q", &q), ("qd", &qd), ("qdd", &qdd)])?;
-        let states = [q.as_slice()?.to_vec(), qd.as_slice()?.to_vec(), qdd.as_slice()?.to_vec()];
+        let is_single = q.is_single;
+        let states = [q, qd, qdd].map(SampleRows::into_numbers);
         let told = py.detach(|| tells(&self.model, &Samples::of_states(self.joints.len(), states)));
-        table(py, told, self.joints.len(), q.is_single)
+        table(py, told, self.joints.len(), is_single)
     }
 }
 

@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use ::robot::{Loaded, RobotError};
-use cli::PartArguments;
+use cli::{PartArguments, RobotInit};
 use dynamics::Dynamics;
 use exchange::Format;
 use numpy::PyArrayDyn;
@@ -48,6 +48,19 @@ impl PyRobot {
     }
 }
 
+/// The joints and meshes that the arguments of Python name.
+fn part(
+    joints: Option<&[String]>,
+    package: Vec<(String, PathBuf)>,
+    allow_outside: bool,
+) -> PyResult<PartArguments> {
+    if joints.is_some_and(<[String]>::is_empty) {
+        return Err(PyValueError::new_err("joints: at least one name was expected"));
+    }
+    let joints = joints.map(<[String]>::to_vec).unwrap_or_default();
+    Ok(PartArguments { joints, package, allow_outside })
+}
+
 #[pymethods]
 impl PyRobot {
     #[new]
@@ -58,15 +71,24 @@ impl PyRobot {
         packages: Vec<(String, PathBuf)>,
         allow_outside: bool,
     ) -> PyResult<Self> {
-        if joints.as_ref().is_some_and(Vec::is_empty) {
-            return Err(PyValueError::new_err("joints: at least one name was expected"));
-        }
-        let part = PartArguments {
-            joints: joints.clone().unwrap_or_default(),
-            package: packages,
-            allow_outside,
-        };
+        let part = part(joints.as_deref(), packages, allow_outside)?;
         Ok(Self::new(part.load(&path).map_err(exception)?, path, joints))
+    }
+
+    /// Writes a first robot.toml and scenario.toml, as `plumbline robot init` does, and gives its warnings.
+    #[staticmethod]
+    #[pyo3(name = "init", signature = (path, folder, joints=None, *, packages=Vec::new(), allow_outside=false, force=false))]
+    fn write_first_files(
+        path: PathBuf,
+        folder: PathBuf,
+        joints: Option<Vec<String>>,
+        packages: Vec<(String, PathBuf)>,
+        allow_outside: bool,
+        force: bool,
+    ) -> PyResult<Vec<String>> {
+        let part = part(joints.as_deref(), packages, allow_outside)?;
+        let written = cli::init_robot(&RobotInit { file: path, part, out: folder, force, json: false });
+        Ok(written.map_err(exception)?.warnings)
     }
 
     /// Name of the robot.

@@ -121,7 +121,7 @@ fn write(
 }
 
 /// What changed and what is wrong in both, a line or a few each.
-fn words(comparison: &Comparison) -> String {
+pub fn words(comparison: &Comparison) -> String {
     let changes = &comparison.after.diagnosis.findings;
     let mut text = format!("{}.\n", report::change_sentence(comparison));
     for finding in changes {

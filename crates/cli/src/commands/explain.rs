@@ -37,7 +37,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
             let entry = find_effect(name)?.entry();
             match arguments.json {
                 true => print_json(&Effect::new(entry))?,
-                false => print(&explanation(entry))?,
+                false => print(&explanation(entry, Style::new().bold()))?,
             }
         }
         None if arguments.json => {
@@ -114,10 +114,14 @@ fn list() -> String {
     )
 }
 
+/// What is known about an effect, as text without styles.
+pub fn plain_explanation(entry: &EffectEntry) -> String {
+    explanation(entry, Style::new())
+}
+
 /// What is known about one effect.
-fn explanation(entry: &EffectEntry) -> String {
-    let bold = Style::new().bold();
-    let mut text = format!("{bold}{}{bold:#} ({})\n\n", entry.kind.label(), entry.kind);
+fn explanation(entry: &EffectEntry, title: Style) -> String {
+    let mut text = format!("{title}{}{title:#} ({})\n\n", entry.kind.label(), entry.kind);
     for (name, value) in facts(entry) {
         let lines = match name {
             "confused with" => report::pack(value.split(", "), ", ", WIDTH).join(",\n"),
@@ -157,7 +161,7 @@ mod tests {
     #[test]
     fn every_effect_says_what_it_is_made_of_and_whether_it_is_diagnosed() {
         for kind in EffectKind::ALL {
-            let text = explanation(kind.entry());
+            let text = plain_explanation(kind.entry());
             for parameter in kind.entry().parameters {
                 assert!(text.contains(&meaning(parameter)), "{} in\n{text}", parameter.name);
             }

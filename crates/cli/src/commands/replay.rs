@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
 use logs::{LogError, LogWarning, PrepareSettings, Prepared, PreparedRun};
-use report::{ReplayReport, ReplayedRun, ReplayedTorque, ReplayedWindow};
+use report::{Provenance, ReplayReport, ReplayedRun, ReplayedTorque, ReplayedWindow};
 use robot::{Loaded, PdGain, Robot};
 use simulator::{ForwardReplay, MotionReplay, SimulatorError, Windows};
 
@@ -57,33 +57,12 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let read = correct_runs(&loaded, &given);
     let prepared = logs::prepare(read.as_ref().unwrap_or(&given), &PrepareSettings::default())?;
     create_folder(&arguments.out)?;
-    let replays: Result<Vec<Replay>, _> =
-        prepared.runs.iter().map(|record| Replay::new(arguments, &loaded, record)).collect();
-    let (mut replayed, mut tables) = (Vec::new(), String::new());
-    for (index, (record, replay)) in prepared.runs.iter().zip(&replays?).enumerate() {
-        let namesakes = prepared.runs[..index].iter().filter(|r| r.name == record.name).count();
-        let ending = if namesakes == 0 { String::new() } else { format!("_{}", namesakes + 1) };
-        let name = record.name.replace(' ', "_") + &ending;
-        replay.write(&arguments.out, &name)?;
-        let summary = replay.summary(&loaded.robot, name, record);
-        tables.push_str(&text(&loaded.robot, &summary, replay));
-        replayed.push(summary);
-    }
     let mut provenance = provenance(&robot_file, &loaded, reading.map_file())?;
     provenance.files.extend(hashes_of(&given));
-    let report = ReplayReport {
-        robot: loaded.robot.name().to_owned(),
-        joints: loaded.robot.joint_names().map(str::to_owned).collect(),
-        runs: replayed,
-        warnings: clock_warnings(&prepared).map(ToString::to_string).collect(),
-        provenance,
-    };
-    let (page, json) = (report.page()?, report.json()?);
-    let files = [("report.html", page.as_bytes()), ("replay.json", json.as_bytes())];
-    report::write_folder(&arguments.out, &files)?;
-    let json = arguments.json.then_some(json.as_str());
-    let told = || tables + &legend(&prepared);
-    print_answer(Quiet(arguments.quiet), json, told, &closing(arguments))?;
+    let replays = Replays::new(&loaded, prepared, &arguments.window_ms, provenance, &|| ())?;
+    replays.write(&arguments.out)?;
+    let json = arguments.json.then(|| replays.report.json()).transpose()?;
+    print_answer(Quiet(arguments.quiet), json.as_deref(), || replays.text(), &closing(arguments))?;
     Ok(ExitStatus::Good)
 }
 
@@ -112,6 +91,74 @@ fn logs_of(
     })
 }
 
+/// The simulation of a robot beside recorded runs.
+pub struct Replays {
+    /// What the page and `replay.json` tell.
+    pub report: ReplayReport,
+    robot: Robot,
+    /// Each by the name of its files, with its record.
+    runs: Vec<(String, PreparedRun, Replay)>,
+}
+
+impl Replays {
+    /// Replays runs, rolled forward over each of some lengths of time; `begin` is called before each run.
+    ///
+    /// # Errors
+    ///
+    /// [`CliError`] for a robot that cannot be simulated, or a length that a run does not have.
+    pub fn new(
+        loaded: &Loaded,
+        prepared: Prepared,
+        windows_ms: &[f64],
+        provenance: Provenance,
+        begin: &dyn Fn(),
+    ) -> Result<Self, CliError> {
+        let warnings = clock_warnings(&prepared).map(ToString::to_string).collect();
+        let mut runs: Vec<(String, PreparedRun, Replay)> = Vec::new();
+        for record in prepared.runs {
+            begin();
+            let namesakes = runs.iter().filter(|(_, other, _)| other.name == record.name).count();
+            let ending = if namesakes == 0 { String::new() } else { format!("_{}", namesakes + 1) };
+            let name = record.name.replace(' ', "_") + &ending;
+            let replay = Replay::new(windows_ms, loaded, &record)?;
+            runs.push((name, record, replay));
+        }
+        let summary = |(name, record, replay): &(String, PreparedRun, Replay)| {
+            replay.summary(&loaded.robot, name.clone(), record)
+        };
+        let report = ReplayReport {
+            robot: loaded.robot.name().to_owned(),
+            joints: loaded.robot.joint_names().map(str::to_owned).collect(),
+            runs: runs.iter().map(summary).collect(),
+            warnings,
+            provenance,
+        };
+        Ok(Self { report, robot: loaded.robot.clone(), runs })
+    }
+
+    /// Writes the page, `replay.json`, and the simulated motion and torque of every run into a folder that is there.
+    ///
+    /// # Errors
+    ///
+    /// [`CliError`] for a file that cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<(), CliError> {
+        self.runs.iter().try_for_each(|(name, _, replay)| replay.write(folder, name))?;
+        let (page, json) = (self.report.page()?, self.report.json()?);
+        let files = [("report.html", page.as_bytes()), ("replay.json", json.as_bytes())];
+        Ok(report::write_folder(folder, &files)?)
+    }
+
+    /// A table of every run, what its columns mean, and what was done to the clocks of the logs.
+    pub fn text(&self) -> String {
+        let runs = self.report.runs.iter().zip(&self.runs);
+        let mut text: String =
+            runs.map(|(run, (_, _, replay))| text(&self.robot, run, replay)).collect();
+        text.push_str(COLUMNS);
+        self.report.warnings.iter().for_each(|w| text.push_str(&format!("warning: {w}\n")));
+        text
+    }
+}
+
 /// What was simulated of one record.
 struct Replay {
     forward: Vec<ForwardReplay>,
@@ -121,12 +168,12 @@ struct Replay {
 
 impl Replay {
     fn new(
-        arguments: &Arguments,
+        windows_ms: &[f64],
         loaded: &Loaded,
         record: &PreparedRun,
     ) -> Result<Self, SimulatorError> {
         let robot = &loaded.robot;
-        let windows = arguments.window_ms.iter();
+        let windows = windows_ms.iter();
         let forward =
             windows.map(|ms| simulator::replay_torque(robot, record, Windows::of(1e-3 * ms)));
         let forward = forward.collect::<Result<_, _>>()?;
@@ -198,20 +245,14 @@ fn clock_warnings(prepared: &Prepared) -> impl Iterator<Item = &LogWarning> {
     prepared.warnings.iter().filter(of_rows)
 }
 
-/// What the columns mean, and what was done to the clocks of the logs.
-fn legend(prepared: &Prepared) -> String {
-    let mut text = String::from(
-        "ms      drift after so long under the measured torque: simulated minus measured position,\n        \
-         RMS over all such windows of the log (rad or m); of the tip, the origin of the last\n        \
-         link, the distance in mm\n\
-         torque  simulated minus measured along the measured motion, RMS, beside the RMS of the\n        \
-         measured (N·m or N)\n",
-    );
-    for warning in clock_warnings(prepared) {
-        text.push_str(&format!("warning: {warning}\n"));
-    }
-    text
-}
+/// What the columns mean.
+const COLUMNS: &str =
+    "ms      drift after so long under the measured torque: simulated minus measured position,
+        RMS over all such windows of the log (rad or m); of the tip, the origin of the last
+        link, the distance in mm
+torque  simulated minus measured along the measured motion, RMS, beside the RMS of the
+        measured (N·m or N)
+";
 
 /// Where the files are.
 fn closing(arguments: &Arguments) -> String {

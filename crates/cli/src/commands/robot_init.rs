@@ -29,18 +29,19 @@ const TRIAL_S: f64 = 4.0;
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// A URDF or an MJCF
-    file: PathBuf,
+    pub file: PathBuf,
+    /// Its joints and meshes
     #[command(flatten)]
-    part: PartArguments,
+    pub part: PartArguments,
     /// Folder for robot.toml and scenario.toml
     #[arg(long, value_name = "DIR", default_value = "out/robot")]
-    out: PathBuf,
+    pub out: PathBuf,
     /// Write over a robot.toml that is there
     #[arg(long)]
-    force: bool,
+    pub force: bool,
     /// Print JSON instead of the text
     #[arg(long)]
-    json: bool,
+    pub json: bool,
 }
 
 /// What was guessed and written, as `--json` prints it.
@@ -62,29 +63,11 @@ struct Guess<'a> {
     kd_nm_s_per_rad: f64,
 }
 
-/// Writes a robot.toml with what the file cannot say, guessed, and a scenario that moves the robot.
+/// Writes the files of [`Arguments`] and prints what was guessed.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
-    let loaded = arguments.part.load(&arguments.file)?;
-    let toml = arguments.out.join("robot.toml");
-    if toml.exists() && !arguments.force {
-        return Err(CliError::Exists { path: toml });
-    }
-    create_folder(&arguments.out)?;
-    loaded.warnings.iter().for_each(|warning| warn(warning));
-    let rate_hz = loaded.control.rate_hz.unwrap_or(RATE_HZ);
-    let drives = drives(&loaded.robot, &loaded.control.gains, rate_hz);
-    let driven = guess::with_rotors(&loaded.robot, &drives);
-    let excitation = Excitation::within_limits(&driven);
-    if !excitation.fits {
-        warn(&"the limits of effort leave no room for the motion: its weight alone may reach them");
-    }
-    let model = relative_to(&arguments.out, &loaded.urdf_path);
-    let described = text::robot_toml(&loaded, &model, &drives, rate_hz);
-    let scenario = text::scenario_toml(&driven, &excitation);
-    let files = [("robot.toml", described.as_bytes()), ("scenario.toml", scenario.as_bytes())];
-    report::write_folder(&arguments.out, &files)?;
-    try_out(arguments)?;
-    let begun = Begun::new(arguments, &loaded, &drives);
+    let written = write(arguments)?;
+    written.warnings.iter().for_each(|warning| warn(warning));
+    let begun = Begun::new(arguments, &written.loaded, &written.drives);
     if arguments.json {
         print_json(&begun)?;
     } else {
@@ -93,14 +76,53 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     Ok(ExitStatus::Good)
 }
 
+/// A robot whose first files are written.
+pub struct InitialisedRobot {
+    loaded: Loaded,
+    drives: Vec<DriveGuess>,
+    /// What its owner should know, in sentences.
+    pub warnings: Vec<String>,
+}
+
+/// Writes a robot.toml with what the file cannot say, guessed, and a scenario that moves the robot.
+///
+/// # Errors
+///
+/// [`CliError::Exists`] for a robot.toml that is there, and those of a file that cannot be read or written.
+pub fn write(arguments: &Arguments) -> Result<InitialisedRobot, CliError> {
+    let loaded = arguments.part.load(&arguments.file)?;
+    let toml = arguments.out.join("robot.toml");
+    if toml.exists() && !arguments.force {
+        return Err(CliError::Exists { path: toml });
+    }
+    create_folder(&arguments.out)?;
+    let mut warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
+    let rate_hz = loaded.control.rate_hz.unwrap_or(RATE_HZ);
+    let drives = drives(&loaded.robot, &loaded.control.gains, rate_hz);
+    let driven = guess::with_rotors(&loaded.robot, &drives);
+    let excitation = Excitation::within_limits(&driven);
+    if !excitation.fits {
+        let heavy =
+            "the limits of effort leave no room for the motion: its weight alone may reach them";
+        warnings.push(heavy.to_owned());
+    }
+    let model = relative_to(&arguments.out, &loaded.urdf_path);
+    let described = text::robot_toml(&loaded, &model, &drives, rate_hz);
+    let scenario = text::scenario_toml(&driven, &excitation);
+    let files = [("robot.toml", described.as_bytes()), ("scenario.toml", scenario.as_bytes())];
+    report::write_folder(&arguments.out, &files)?;
+    warnings.extend(try_out(arguments)?);
+    Ok(InitialisedRobot { loaded, drives, warnings })
+}
+
 /// Reads both files as `simulate` does and moves the arm for a few seconds; an arm that runs away is
 /// a warning, as its files are there to be changed.
-fn try_out(arguments: &Arguments) -> Result<(), CliError> {
+fn try_out(arguments: &Arguments) -> Result<Option<String>, CliError> {
     let scenario = Scenario::from_document(&Document::read(arguments.out.join("scenario.toml"))?)?;
-    if let Err(error) = simulator::simulate_noise_free_start(&scenario, &[], TRIAL_S) {
-        warn(&format!("the scenario does not run yet: {error}; other gains or rotors may help"));
-    }
-    Ok(())
+    let tried = simulator::simulate_noise_free_start(&scenario, &[], TRIAL_S);
+    let fails =
+        |error| format!("the scenario does not run yet: {error}; other gains or rotors may help");
+    Ok(tried.err().map(fails))
 }
 
 impl<'a> Begun<'a> {

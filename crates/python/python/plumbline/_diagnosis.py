@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 from collections.abc import Sequence
 from os import PathLike
@@ -12,6 +13,7 @@ from plumbline._findings import Findings, findings_of
 from plumbline._log import Log, natives
 from plumbline._progress import Progress, shown
 from plumbline._robot import Export, Robot, native
+from plumbline._torques import RunTorques
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -45,6 +47,12 @@ class Diagnosis:
     def robot(self) -> Robot:
         """The robot with the findings in it."""
         return Robot._of(self._native.robot)
+
+    @property
+    def torques(self) -> tuple[RunTorques, ...]:
+        """Measured, nominal and extended torque of every run, as arrays with their times."""
+        joints = tuple(self.robot.joints)
+        return tuple(RunTorques(joints=joints, **run) for run in self._native.traces())
 
     @property
     def warnings(self) -> list[str]:
@@ -95,7 +103,7 @@ class Diagnosis:
         """
         from plumbline._plot import plotted
 
-        return plotted(self._native.traces()[run])
+        return plotted(self.torques[run])
 
     def _repr_html_(self) -> str:
         return self._native.notebook()
@@ -111,6 +119,7 @@ class Comparison:
     """What changed from one set of logs to another; ``plumbline.compare`` makes it."""
 
     def __init__(self, native: _plumbline.Comparison) -> None:
+        self._text = native.text
         self.before = Diagnosis._of(native.before)
         """What the first logs say of the robot."""
         self.after = Diagnosis._of(native.after)
@@ -124,7 +133,10 @@ class Comparison:
         return self.after.findings
 
     def _repr_html_(self) -> str:
-        return self.after._repr_html_()
+        return f"<pre>{html.escape(self._text)}</pre>"
+
+    def __str__(self) -> str:
+        return self._text
 
     def __repr__(self) -> str:
         return f"<Comparison: {len(self.changes)} changes>"

@@ -78,13 +78,15 @@ class Log:
         effort: str = "effort",
         topic: Optional[str] = None,
         episode: Optional[int] = None,
+        from_s: Optional[float] = None,
+        to_s: Optional[float] = None,
         until_damage: bool = False,
     ) -> Log:
         """A log in a file: CSV, Parquet, NumPy, MATLAB, a bag of ROS 2, an episode of a dataset of LeRobot.
 
         ``map`` names a column map or one that the program knows, ``effort`` the column of the torque,
-        ``topic`` that of a bag, ``episode`` that of a dataset with several; with ``until_damage`` a damaged file
-        is read up to there. The file is read when it is used with a robot. Raises ``PlumblineError`` where there
+        ``topic`` that of a bag, ``episode`` that of a dataset with several; ``from_s`` and ``to_s`` (s after the first row)
+        bound the part that is read; with ``until_damage`` a damaged file is read up to there. The file is read when it is used with a robot. Raises ``PlumblineError`` where there
         is no file.
         """
         return cls._of(
@@ -94,27 +96,40 @@ class Log:
                 effort=_arguments.text("effort", effort),
                 topic=None if topic is None else _arguments.text("topic", topic),
                 episode=_arguments.count_or_none("episode", episode),
+                from_s=_arguments.number_or_none("from_s", from_s),
+                to_s=_arguments.number_or_none("to_s", to_s),
                 until_damage=_arguments.flag("until_damage", until_damage),
             )
         )
 
     @classmethod
-    def from_frame(cls, frame: Any, *, name: str = "log") -> Log:
+    def from_frame(
+        cls, frame: Any, *, map: Optional[Union[str, PathLike[str]]] = None, name: str = "log"
+    ) -> Log:
         """A run from a frame of pandas or polars, or from arrays by name.
 
         Columns are called as in a file: ``time`` (s), ``<joint>.position``, ``<joint>.effort`` and, where
         they were recorded, ``.velocity``, ``.acceleration``, ``.desired_position``,
-        ``.commanded_effort``, ``.link_position``. Columns without numbers are left out where their name is
-        none of these. Raises ``TypeError`` and ``KeyError`` that name the column.
+        ``.commanded_effort``, ``.link_position``; or as a column map (TOML) says whose file is ``map``. Without a column
+        ``time`` the frame's index is the time where it is a ``DatetimeIndex`` or ``TimedeltaIndex`` of pandas. Dates and
+        durations become seconds after the first. Columns without numbers are left out where their name is none of these.
+        Raises ``TypeError``, ``ValueError`` and ``KeyError`` that name the column, ``PlumblineError`` for the map.
         """
         names = frame.keys() if isinstance(frame, Mapping) else getattr(frame, "columns", None)
         if not isinstance(names, Iterable):
             raise TypeError(
                 f"frame: found {type(frame).__name__}, a frame of pandas or polars or a mapping was expected"
             )
-        columns = [(_arguments.text("frame", str(column)), numpy.asarray(frame[column])) for column in names]
+        columns = [(_arguments.text("frame", str(column)), _numbers(str(column), frame[column])) for column in names]
         used = [c for c in columns if c[1].dtype.kind in "iuf" or c[0] == "time" or "." in c[0]]
-        return cls._of(_plumbline.Log.of_columns(used, name=_arguments.text("name", name)))
+        index = getattr(frame, "index", None)
+        if all(column != "time" for column, _ in used) and _is_time(index):
+            used.append(("time", _numbers("time", index)))
+        return cls._of(
+            _plumbline.Log.of_columns(
+                used, map=_arguments.path_or_none("map", map), name=_arguments.text("name", name)
+            )
+        )
 
     def on(self, robot: Robot) -> Log:
         """The log as it is read and checked for a robot, its joints in the robot's order.
@@ -182,6 +197,25 @@ def natives(argument: str, logs: Union[Log, Sequence[Log]]) -> list[_plumbline.L
         if not isinstance(log, Log):
             raise TypeError(f"{argument}: found {type(log).__name__}, a Log was expected")
     return [log._native for log in every]
+
+
+def _is_time(values: Any) -> bool:
+    # Dates with a zone have a type of pandas' own, of the same kind.
+    return getattr(getattr(values, "dtype", None), "kind", "") in ("M", "m")
+
+
+def _numbers(column: str, values: Any) -> numpy.typing.NDArray[Any]:
+    """A column of a frame; dates and durations as seconds after the first."""
+    array = numpy.asarray(values)
+    if not _is_time(values) and not _is_time(array):
+        return array
+    kind = array.dtype.kind if _is_time(array) else values.dtype.kind
+    moments = numpy.asarray(values, dtype="datetime64[ns]" if kind == "M" else "timedelta64[ns]")
+    absent = numpy.flatnonzero(numpy.isnat(moments))
+    if len(absent):
+        raise ValueError(f"{column}: row {absent[0]}: found {moments[absent[0]]}, a time was expected")
+    seconds: _Array = (moments - moments[:1]) / numpy.timedelta64(1, "s")
+    return seconds
 
 
 def _joints(joints: Sequence[str]) -> list[str]:

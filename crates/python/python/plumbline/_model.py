@@ -28,8 +28,8 @@ def inverse_dynamics(
         tau = M(q) qdd + C(q, qd) qd + g(q)
 
     ``q``, ``qd``, ``qdd`` and the result are of the shape (samples, joints), or (joints,) for one sample;
-    rad or m, per s, per s², N m or N. Rotors and friction are left out: ``Model.described`` has them. Float64
-    in the order of C is read where it is. Raises ``TypeError`` and ``ValueError`` that name the argument.
+    rad or m, per s, per s², N m or N. Rotors and friction are left out: ``Model.described`` has them. The
+    arguments are copied before other threads run. Raises ``TypeError`` and ``ValueError`` that name the argument.
     """
     return _plumbline.inverse_dynamics(native(robot), q, qd, qdd)
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import io
-from typing import Any
 
 from matplotlib.figure import Figure
+
+from plumbline._torques import RunTorques
 
 # Those of reports on white.
 _COLOURS = {"measured": "#1f2328", "nominal": "#b84a00", "extended": "#0072b2"}
@@ -20,23 +21,23 @@ class Picture(Figure):
         return png.getvalue()
 
 
-def plotted(run: dict[str, Any]) -> Figure:
+def plotted(run: RunTorques) -> Figure:
     """Torque over time, and below it the error of both models, joint by joint."""
-    time, joints = run["time"], run["joints"]
+    time, joints = run.time, run.joints
     figure = Picture(figsize=(9, 2.6 * len(joints)), layout="constrained")
     axes = figure.subplots(2 * len(joints), 1, sharex=True, squeeze=False, height_ratios=[2, 1] * len(joints))
-    for index, (joint, signals) in enumerate(joints.items()):
+    for index, joint in enumerate(joints):
         torque, left = axes[2 * index, 0], axes[2 * index + 1, 0]
-        count = len(signals["measured"])
+        measured = run.measured[:, index]
         for name, colour in _COLOURS.items():
-            torque.plot(time[:count], signals[name], color=colour, linewidth=0.8, label=name)
+            signal = getattr(run, name)[:, index]
+            torque.plot(time, signal, color=colour, linewidth=0.8, label=name)
             if name != "measured":
-                error = signals["measured"] - signals[name]
-                left.plot(time[:count], error, color=colour, linewidth=0.8)
+                left.plot(time, measured - signal, color=colour, linewidth=0.8)
         torque.set_title(joint, loc="left")
         torque.set_ylabel("torque\n(N·m or N)")
         left.set_ylabel("left")
     figure.legend(handles=axes[0, 0].get_lines(), loc="outside upper right", ncols=3, frameon=False)
     axes[-1, 0].set_xlabel("time (s)")
-    figure.suptitle(run["name"], x=0.01, ha="left")
+    figure.suptitle(run.name, x=0.01, ha="left")
     return figure

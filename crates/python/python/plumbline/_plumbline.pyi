@@ -12,6 +12,8 @@ _Path = Union[str, PathLike[str]]
 _Array = numpy.typing.NDArray[numpy.float64]
 _Progress = Optional[Callable[[str, int, int], object]]
 
+__version__: str
+
 class PlumblineError(ValueError): ...
 
 class Robot:
@@ -23,6 +25,16 @@ class Robot:
         packages: Sequence[tuple[str, _Path]] = ...,
         allow_outside: bool = False,
     ) -> Robot: ...
+    @staticmethod
+    def init(
+        path: _Path,
+        folder: _Path,
+        joints: Optional[Sequence[str]] = None,
+        *,
+        packages: Sequence[tuple[str, _Path]] = ...,
+        allow_outside: bool = False,
+        force: bool = False,
+    ) -> list[str]: ...
     @property
     def name(self) -> str: ...
     @property
@@ -64,11 +76,16 @@ class Log:
         effort: str = ...,
         topic: Optional[str] = None,
         episode: Optional[int] = None,
+        from_s: Optional[float] = None,
+        to_s: Optional[float] = None,
         until_damage: bool = False,
     ) -> Log: ...
     @staticmethod
     def of_columns(
-        columns: Sequence[tuple[str, numpy.typing.ArrayLike]], *, name: str = "log"
+        columns: Sequence[tuple[str, numpy.typing.ArrayLike]],
+        *,
+        map: Optional[_Path] = None,
+        name: str = "log",
     ) -> Log: ...
     def on(self, robot: Robot) -> Log: ...
     @property
@@ -103,6 +120,27 @@ class Comparison:
     def after(self) -> Diagnosis: ...
     @property
     def alike(self) -> str: ...
+    @property
+    def text(self) -> str: ...
+
+class Effect:
+    @property
+    def code(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def facts(self) -> list[tuple[str, str]]: ...
+    @property
+    def text(self) -> str: ...
+
+class Replay:
+    def drift(self) -> list[tuple[str, list[tuple[float, Optional[_Array]]]]]: ...
+    @property
+    def doubts(self) -> list[str]: ...
+    def json(self) -> str: ...
+    def html(self) -> str: ...
+    def text(self) -> str: ...
+    def save(self, folder: _Path) -> None: ...
 
 class Design:
     def text(self) -> str: ...
@@ -150,6 +188,15 @@ class Model:
     ) -> _Array: ...
     def error(self, logs: Sequence[Log], *, cutoff_hz: Optional[float] = None) -> _Array: ...
 
+def explain(effect: str) -> Effect: ...
+def effects() -> list[Effect]: ...
+def replay(
+    robot: Robot,
+    logs: Sequence[Log],
+    *,
+    window_ms: Sequence[float],
+    progress: _Progress = None,
+) -> Replay: ...
 def inverse_dynamics(
     robot: Robot,
     q: numpy.typing.ArrayLike,

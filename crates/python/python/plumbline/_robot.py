@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
@@ -53,16 +54,10 @@ class Robot:
         packages: Optional[Mapping[str, Union[str, PathLike[str]]]] = None,
         allow_outside: bool = False,
     ) -> None:
-        if packages is not None and not isinstance(packages, Mapping):
-            raise TypeError(f"packages: found {type(packages).__name__}, folders by name were expected")
-        folders = [
-            (_arguments.text("packages", name), _arguments.path("packages", folder))
-            for name, folder in (packages or {}).items()
-        ]
         self._native = _plumbline.Robot(
             _arguments.path("path", path),
             None if joints is None else _arguments.texts("joints", joints),
-            packages=folders,
+            packages=_folders(packages),
             allow_outside=_arguments.flag("allow_outside", allow_outside),
         )
 
@@ -71,6 +66,36 @@ class Robot:
         robot = cls.__new__(cls)
         robot._native = native
         return robot
+
+    @classmethod
+    def init(
+        cls,
+        path: Union[str, PathLike[str]],
+        folder: Union[str, PathLike[str]],
+        joints: Optional[Sequence[str]] = None,
+        *,
+        packages: Optional[Mapping[str, Union[str, PathLike[str]]]] = None,
+        allow_outside: bool = False,
+        force: bool = False,
+    ) -> Robot:
+        """Write ``robot.toml``, with what a URDF or MJCF cannot say guessed from it, and ``scenario.toml``, which moves the
+        robot, into ``folder``, as ``plumbline robot init`` does, and read the robot.
+
+        A ``robot.toml`` that is there is kept but with ``force``. What the program warns of is raised as ``UserWarning``.
+        The other arguments and errors are those of ``Robot``.
+        """
+        where = _arguments.path("folder", folder)
+        told = _plumbline.Robot.init(
+            _arguments.path("path", path),
+            where,
+            None if joints is None else _arguments.texts("joints", joints),
+            packages=_folders(packages),
+            allow_outside=_arguments.flag("allow_outside", allow_outside),
+            force=_arguments.flag("force", force),
+        )
+        for sentence in told:
+            warnings.warn(sentence, stacklevel=2)
+        return cls(Path(where, "robot.toml"), packages=packages, allow_outside=allow_outside)
 
     @property
     def name(self) -> str:
@@ -118,6 +143,15 @@ class Robot:
 
     def __repr__(self) -> str:
         return repr(self._native)
+
+
+def _folders(packages: Optional[Mapping[str, Union[str, PathLike[str]]]]) -> list[tuple[str, str]]:
+    if packages is not None and not isinstance(packages, Mapping):
+        raise TypeError(f"packages: found {type(packages).__name__}, folders by name were expected")
+    return [
+        (_arguments.text("packages", name), _arguments.path("packages", folder))
+        for name, folder in (packages or {}).items()
+    ]
 
 
 def native(robot: Robot, argument: str = "robot") -> _plumbline.Robot:
