@@ -107,6 +107,20 @@ fn robot_check_names_an_impossible_inertia_and_exits_with_one() {
 }
 
 #[test]
+fn robot_check_judges_moving_bodies() {
+    let folder = arm::folder(Gap::None);
+    let camera = r#"<link name="camera"><inertial><mass value="0.01"/>
+      <inertia ixx="1e-5" ixy="0" ixz="0" iyy="1e-5" iyz="0" izz="9e-5"/></inertial></link>
+      <joint name="mount" type="fixed"><parent link="PARENT"/><child link="camera"/></joint></robot>"#;
+    for parent in ["upper", "base"] {
+        let extra = camera.replace("PARENT", parent);
+        arm::write(folder.path(), "camera.urdf", &arm::URDF.replace("</robot>", &extra));
+        let answer = run(folder.path(), &["robot", "check", "camera.urdf"]);
+        assert_eq!((answer.code, answer.out.contains("warning")), (0, false), "{answer:?}");
+    }
+}
+
+#[test]
 fn log_info_reads_a_log_with_and_without_a_robot() {
     let folder = arm::folder(Gap::None);
     let alone = run(folder.path(), &["log", "info", "run_0.csv"]);

@@ -232,6 +232,70 @@ fn weak_inertias_are_warnings_by_link_name() {
     assert_eq!(load(&[("a.urdf", &arm_with(""))]).unwrap().warnings, []);
 }
 
+/// A link with an inertia (diagonal, kg m²), fixed to another.
+fn fixed(name: &str, parent: &str, mass: f64, [xx, yy, zz]: [f64; 3]) -> String {
+    format!(
+        r#"<link name="{name}"><inertial><mass value="{mass}"/><inertia ixx="{xx}" ixy="0" ixz="0" iyy="{yy}" iyz="0" izz="{zz}"/></inertial></link>
+  <joint name="{name}_mount" type="fixed"><parent link="{parent}"/><child link="{name}"/></joint>"#
+    )
+}
+
+#[test]
+fn what_is_fixed_to_a_sound_body_or_to_the_base_is_judged_with_it() {
+    let impossible = [1e-3, 1e-3, 3e-3];
+    for (parent, mass, moments) in [
+        ("upper", 0.1, impossible),
+        ("upper", 0.0, [1e-9, 0.0, 0.0]),
+        ("upper", 1e-6, [0.0, 0.0, 0.0]),
+        ("base", 2.0, [1.0, 1.0, 5.0]),
+        ("base", 0.0, [1.0, -1.0, 1.0]),
+    ] {
+        let loaded = load(&[("a.urdf", &arm_with(&fixed("part", parent, mass, moments)))]).unwrap();
+        assert_eq!(loaded.warnings, [], "{parent} {mass} {moments:?}");
+    }
+    let heavy = fixed("part", "upper", 2.0, [1.0, 1.0, 5.0]);
+    let loaded = load(&[("a.urdf", &arm_with(&heavy))]).unwrap();
+    let told: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
+    assert_eq!(
+        told,
+        ["link upper: largest principal moment of inertia exceeds the sum of the other two by \
+          2.000e0 kg m², no body has such an inertia"]
+    );
+}
+
+#[test]
+fn rounding_a_rod_and_a_point_mass_are_sound() {
+    for moments in [
+        [-2e-22, 0.5, 0.5],
+        [0.0, 0.5, 0.5],
+        [0.25, 0.25, 0.5 + 1e-9],
+        [0.0, 0.0, 0.0],
+        [-5e-20, 0.0, 1e-19],
+    ] {
+        let [xx, yy, zz] = moments;
+        let of_file = r#"ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1""#;
+        let own = format!(r#"ixx="{xx}" ixy="0" ixz="0" iyy="{yy}" iyz="0" izz="{zz}""#);
+        let urdf = arm_with("").replacen(of_file, &own, 1);
+        assert_ne!(urdf, arm_with(""));
+        assert_eq!(load(&[("a.urdf", &urdf)]).unwrap().warnings, [], "{moments:?}");
+    }
+}
+
+/// Two axes at one place need a frame between them; a link between two places that has no inertia lacks one.
+#[test]
+fn a_frame_between_two_axes_at_one_place_needs_no_inertia() {
+    let between = |xyz: &str| {
+        arm_with(&format!(
+            r#"<link name="frame"/><joint name="yaw" type="revolute"><parent link="lower"/><child link="frame"/></joint>
+  <link name="hand"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <joint name="pitch" type="revolute"><parent link="frame"/><child link="hand"/><origin xyz="{xyz}"/><axis xyz="0 1 0"/></joint>"#
+        ))
+    };
+    let warnings = |xyz: &str| load(&[("a.urdf", &between(xyz))]).unwrap().warnings;
+    assert_eq!(warnings("0 0 0"), []);
+    assert_eq!(warnings("0.2 0 0"), [RobotWarning::Massless { link: "frame".to_owned() }]);
+}
+
 #[test]
 fn a_moving_link_without_inertia_is_massless_with_a_warning() {
     let extra = r#"<link name="hand"/><joint name="wrist" type="prismatic"><parent link="lower"/><child link="hand"/></joint>"#;

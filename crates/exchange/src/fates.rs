@@ -23,7 +23,7 @@ pub(crate) fn fates(loaded: &Loaded, format: Format) -> Vec<QuantityFate> {
     }
     for (link, old) in robot.links().iter().zip(loaded.robot_in_urdf.links()) {
         let is_told = matches!(format, Format::Mjcf | Format::Isaac);
-        let is_impossible = is_told && !link.inertia.defects().is_empty();
+        let is_impossible = is_told && !link.inertia.is_positive_definite();
         if link.inertia != old.inertia || is_impossible {
             fates.push(inertia(link, format));
         }
@@ -54,8 +54,7 @@ pub(crate) fn fate_of(quantity: DriveQuantity, link: &Link, format: Format) -> F
 }
 
 fn inertia(link: &Link, format: Format) -> QuantityFate {
-    let defects = link.inertia.defects();
-    let fate = match (format, defects.is_empty()) {
+    let fate = match (format, link.inertia.is_positive_definite()) {
         (Format::Urdf, _) if !link.merged.is_empty() => {
             Fate::exact("<inertial> of the link; links fixed to it keep theirs")
         }

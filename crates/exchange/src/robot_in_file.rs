@@ -34,10 +34,10 @@ pub(crate) fn robot_in_file(loaded: &Loaded, reported: &Robot, format: Format) -
 /// A body as written.
 fn inertia(inertia: &Inertia, format: Format) -> Inertia {
     match format {
-        Format::Mjcf if !inertia.defects().is_empty() => {
+        Format::Mjcf if !inertia.is_positive_definite() => {
             mjcf::write::with_possible_moments(inertia)
         }
-        Format::Isaac if !inertia.defects().is_empty() => {
+        Format::Isaac if !inertia.is_positive_definite() => {
             usd::write::without_negative_moments(inertia)
         }
         _ => inertia.clone(),

@@ -171,12 +171,17 @@ impl Loaded {
             let robot = self.robot.name().to_owned();
             return Err(RobotError::TooManyJoints { robot, found, most: MOST_JOINTS });
         }
-        for link in self.robot.links().iter().filter(|link| link.inertia.mass <= 0.0) {
-            let (link, mass) = (link.name.clone(), link.inertia.mass);
-            if model.without_mass.contains(&link) {
+        for (index, body) in self.robot.links().iter().enumerate() {
+            let (link, mass) = (body.name.clone(), body.inertia.mass);
+            if mass > 0.0 {
+                let defects = self.robot.inertia_defects(index).into_iter();
+                let told = |defect| RobotWarning::Inertia { link: link.clone(), defect };
+                self.warnings.extend(defects.map(told));
+            } else if model.without_mass.contains(&link) {
                 return Err(RobotError::MassNotPositive { link, mass });
+            } else if !self.robot.is_frame_between_axes(index) {
+                self.warnings.push(RobotWarning::Massless { link });
             }
-            self.warnings.push(RobotWarning::Massless { link });
         }
         let is_told = |link: &str| self.warnings.iter().any(|w| w.link() == Some(link));
         let wide = self.robot.wide_inertias().into_iter().filter(|wide| !is_told(&wide.link));

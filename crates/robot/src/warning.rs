@@ -12,9 +12,9 @@ pub enum RobotWarning {
         /// Name of the moving link.
         link: String,
     },
-    /// An inertia contradicts physics.
+    /// The inertia of a moving link and everything fixed to it contradicts physics.
     Inertia {
-        /// Name of the link in the URDF, before links are merged, or in `robot.toml`.
+        /// Name of the moving link.
         link: String,
         /// What is wrong with it.
         defect: InertiaDefect,

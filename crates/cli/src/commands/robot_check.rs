@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
 use dynamics::{ColumnSet, base_parameter_count};
-use robot::{Actuator, JointKind, Link, Loaded, LockedJoint, RobotWarning, WideInertia};
+use robot::{Actuator, JointKind, Loaded, LockedJoint, Robot, WideInertia};
 use serde::Serialize;
 
 use crate::error::CliError;
@@ -33,8 +33,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     } else {
         print(&text(&check))?;
     }
-    let has_defect = loaded.warnings.iter().any(|w| matches!(w, RobotWarning::Inertia { .. }))
-        || check.joints.iter().any(|j| !j.link_defects.is_empty());
+    let has_defect = check.joints.iter().any(|joint| !joint.link_defects.is_empty());
     Ok(if has_defect { ExitStatus::Gap } else { ExitStatus::Good })
 }
 
@@ -102,7 +101,9 @@ impl Check {
             urdf: display_path(&loaded.urdf_path),
             base_link: loaded.base_link.clone(),
             gravity_m_per_s2: robot.gravity_in_base().into(),
-            joints: robot.links().iter().map(|link| JointCheck::new(link, &wide)).collect(),
+            joints: (0..robot.joint_count())
+                .filter_map(|at| JointCheck::new(robot, at, &wide))
+                .collect(),
             locked: loaded.locked.iter().map(LockCheck::new).collect(),
             base_parameters: BaseCounts {
                 inertial: count(ColumnSet::INERTIAL),
@@ -127,13 +128,15 @@ impl LockCheck {
 }
 
 impl JointCheck {
-    fn new(link: &Link, wide: &[WideInertia]) -> Self {
+    fn new(robot: &Robot, index: usize, wide: &[WideInertia]) -> Option<Self> {
+        let link = robot.links().get(index)?;
+        let defects = robot.inertia_defects(index);
         let wide = wide.iter().filter(|wide| wide.link == link.name);
         let wide = wide.map(|wide| format!("radius of gyration {} m", short(wide.radius_m)));
         let (joint, inertia) = (&link.joint, &link.inertia);
         let Actuator { rotor_inertia, viscous, coulomb_forward, coulomb_backward, .. } =
             link.actuator;
-        Self {
+        Some(Self {
             name: joint.name.clone(),
             kind: match joint.kind {
                 JointKind::Revolute => "revolute",
@@ -150,8 +153,8 @@ impl JointCheck {
             link: link.name.clone(),
             mass_kg: inertia.mass,
             merged: link.merged.clone(),
-            link_defects: inertia.defects().iter().map(ToString::to_string).chain(wide).collect(),
-        }
+            link_defects: defects.iter().map(ToString::to_string).chain(wide).collect(),
+        })
     }
 }
 

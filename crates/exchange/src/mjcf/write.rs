@@ -31,7 +31,7 @@ pub fn write(loaded: &Loaded, robot: &Robot) -> String {
         ("autolimits", "true".to_owned()),
         ("inertiafromgeom", "false".to_owned()),
     ];
-    if robot.links().iter().any(|link| !link.inertia.defects().is_empty()) {
+    if robot.links().iter().any(|link| !link.inertia.is_positive_definite()) {
         compiler.push(("balanceinertia", "true".to_owned()));
     }
     sheet.leaf("compiler", &compiler);

@@ -12,11 +12,9 @@ use crate::mjcf::unread::Unread;
 use crate::mjcf::view::View;
 use crate::mjcf::{actuators, geom};
 use crate::structure::control::PdGain;
-use crate::structure::inertia::Inertia;
 use crate::structure::link::Link;
 use crate::structure::part::{Mimic, Mimics};
 use crate::structure::robot::Robot;
-use crate::warning::RobotWarning;
 use crate::whole_robot::WholeRobot;
 
 /// Free fall of a model that does not say another (m/s²).
@@ -57,7 +55,6 @@ pub(crate) fn parse(
     let gravity = gravity(&root, &view)?;
     let name = root.get("model").unwrap_or("MuJoCo Model").to_owned();
     let mut warnings = walk.warnings;
-    warnings.extend(walk.links.iter().flat_map(defects));
     warnings.extend(walk.unread.warnings());
     Ok(WholeRobot {
         robot: Robot::new(name, gravity, walk.links)?,
@@ -71,13 +68,6 @@ pub(crate) fn parse(
         expanded: files.has_includes().then(|| root.to_xml()),
         warnings,
     })
-}
-
-/// What contradicts physics in the inertia of a body that has one.
-fn defects(link: &Link) -> impl Iterator<Item = RobotWarning> + '_ {
-    let defects = Some(&link.inertia).filter(|i| i.mass > 0.0).map(Inertia::defects);
-    let warning = |defect| RobotWarning::Inertia { link: link.name.clone(), defect };
-    defects.into_iter().flatten().map(warning)
 }
 
 fn gravity<'a>(

@@ -12,7 +12,6 @@ use crate::structure::actuator::{SensingSide, TorqueSource};
 use crate::structure::control::PdGain;
 use crate::structure::inertia::Inertia;
 use crate::structure::part::JointSelection;
-use crate::warning::RobotWarning;
 
 /// The keys of `robot.toml`: what a URDF cannot say.
 ///
@@ -228,13 +227,6 @@ impl LinkEntry {
             about_com: Matrix3::new(i.xx, i.xy, i.xz, i.xy, i.yy, i.yz, i.xz, i.yz, i.zz),
         };
         let Some(link) = loaded.robot.link_mut(index) else { return Ok(()) };
-        // What the URDF said about this body no longer counts.
-        let of_body = |l: &str| l == name || link.merged.iter().any(|m| m == l);
-        loaded.warnings.retain(|w| !w.link().is_some_and(of_body));
-        let defects = inertia.defects().into_iter();
-        loaded
-            .warnings
-            .extend(defects.map(|d| RobotWarning::Inertia { link: name.to_owned(), defect: d }));
         link.inertia = inertia;
         Ok(())
     }

@@ -2,6 +2,12 @@ use std::fmt;
 
 use nalgebra::{Isometry3, Matrix3, Matrix4, SymmetricEigen, Vector3};
 
+/// Share of the trace that is a rounding error of the file (1).
+const ROUNDING: f64 = 1e-6;
+
+/// Radius of gyration up to which a body is a point mass with rounding errors (m).
+const POINT_M: f64 = 1e-6;
+
 /// Inertia of one moving body: the link and everything fixed to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inertia {
@@ -18,8 +24,8 @@ pub struct Inertia {
 pub enum InertiaDefect {
     /// Mass is zero or negative (kg).
     MassNotPositive(f64),
-    /// The smallest principal moment of inertia is not positive (kg m²).
-    NotPositiveDefinite(f64),
+    /// The smallest principal moment of inertia is negative (kg m²).
+    NegativeMoment(f64),
     /// Largest principal moment minus the sum of the other two is positive (kg m²):
     /// no distribution of mass has such an inertia.
     TriangleInequality(f64),
@@ -31,10 +37,10 @@ impl fmt::Display for InertiaDefect {
             Self::MassNotPositive(mass) => {
                 write!(f, "mass is {mass} kg, a positive number was expected")
             }
-            Self::NotPositiveDefinite(smallest) => write!(
+            Self::NegativeMoment(smallest) => write!(
                 f,
                 "smallest principal moment of inertia is {smallest:.3e} kg m², \
-                 a positive number was expected"
+                 a number not below 0 was expected"
             ),
             Self::TriangleInequality(excess) => write!(
                 f,
@@ -137,6 +143,13 @@ impl Inertia {
     }
 
     /// Every way in which this inertia contradicts physics; empty when it is sound.
+    ///
+    /// ```text
+    /// m > 0,   I1 >= -e,   I3 - I1 - I2 <= e          principal moments I1 <= I2 <= I3
+    /// e = 1e-6 |I1 + I2 + I3| + m (1e-6 m)²           rounding of the file is no defect
+    /// ```
+    ///
+    /// A thin rod (`I1 = 0`) and a point mass (all three are 0) are sound.
     pub fn defects(&self) -> Vec<InertiaDefect> {
         let mut defects = Vec::new();
         if self.mass <= 0.0 {
@@ -144,14 +157,20 @@ impl Inertia {
         }
         let moments = SymmetricEigen::new(self.about_com).eigenvalues;
         let (smallest, largest) = (moments.min(), moments.max());
-        if smallest <= 0.0 {
-            defects.push(InertiaDefect::NotPositiveDefinite(smallest));
+        let rounding = ROUNDING * moments.sum().abs() + self.mass.abs() * POINT_M * POINT_M;
+        if smallest < -rounding {
+            defects.push(InertiaDefect::NegativeMoment(smallest));
         }
-        // A rounding error of the file is not a defect: one part in 10^6 of the trace.
         let excess = 2.0 * largest - moments.sum();
-        if excess > 1e-6 * moments.sum().abs() {
+        if excess > rounding {
             defects.push(InertiaDefect::TriangleInequality(excess));
         }
         defects
+    }
+
+    /// Whether the inertia is sound and each of its principal moments is above zero, as engines ask for.
+    pub fn is_positive_definite(&self) -> bool {
+        let moments = SymmetricEigen::new(self.about_com).eigenvalues;
+        moments.min() > 0.0 && self.defects().is_empty()
     }
 }

@@ -7,6 +7,7 @@ pub(crate) mod joint;
 pub(crate) mod link;
 pub(crate) mod looks;
 pub(crate) mod lumping;
+pub(crate) mod moving_body;
 pub(crate) mod part;
 pub(crate) mod robot;
 pub(crate) mod wide_inertia;

@@ -31,9 +31,6 @@ pub(crate) fn parse(text: &str) -> Result<WholeRobot, RobotError> {
         }
         // A frame: neither mass nor inertia.
         let inertia = inertia.filter(|i| i.mass > 0.0 || i.about_com.amax() > 0.0);
-        let defects = inertia.iter().flat_map(Inertia::defects);
-        let name = &link.name;
-        warnings.extend(defects.map(|d| RobotWarning::Inertia { link: name.clone(), defect: d }));
         inertias.push(inertia);
         links.push(link);
     }
