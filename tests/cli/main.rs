@@ -21,6 +21,7 @@ mod files;
 mod foreign_files;
 mod help;
 mod impossible;
+mod installed;
 mod learn;
 mod lerobot;
 #[cfg(target_os = "linux")]

@@ -7,6 +7,7 @@ use report::{FileHash, Provenance, ReportError};
 use robot::{LoadOptions, Loaded, MeshFolders, Packages, Robot, RobotError};
 
 use crate::effect_name::find_effect;
+use crate::installed::file_of;
 use crate::invocation;
 use crate::output::display_path;
 
@@ -30,7 +31,7 @@ pub struct PartArguments {
 }
 
 impl PartArguments {
-    /// The robot that a file describes, or the part of it that is meant.
+    /// The robot that a file or `PACKAGE:NAME` describes, or the part of it that is meant.
     ///
     /// # Errors
     ///
@@ -42,14 +43,15 @@ impl PartArguments {
         packages.named.extend(self.package.iter().cloned());
         let joints = (!self.joints.is_empty()).then(|| self.joints.clone());
         let meshes = if self.allow_outside { MeshFolders::Anywhere } else { MeshFolders::Below };
-        Robot::load_with(path, &LoadOptions { joints, packages, meshes })
+        Robot::load_with(&file_of(path)?, &LoadOptions { joints, packages, meshes })
     }
 }
 
 /// The robot of a command, and the part of it that is meant.
 #[derive(Debug, clap::Args)]
 pub struct RobotArguments {
-    /// The robot: a robot.urdf, or a robot.toml that names one
+    /// The robot: a robot.urdf, an MJCF, or a robot.toml that names one; of installed Python packages also
+    /// menagerie:ur5e (mujoco-menagerie) and description:panda_description (robot_descriptions)
     #[arg(long, value_name = "FILE")]
     pub robot: PathBuf,
     /// The part of it that is meant
@@ -135,8 +137,12 @@ pub fn provenance_of(
     loaded: &Loaded,
     map: Option<&Path>,
 ) -> Result<Provenance, ReportError> {
-    let mut files = vec![hash("robot", robot)?];
-    if loaded.urdf_path != robot {
+    let robot = file_of(robot).map_err(|error| ReportError::Unreadable {
+        path: robot.to_owned(),
+        reason: error.to_string(),
+    })?;
+    let mut files = vec![hash("robot", &robot)?];
+    if loaded.urdf_path != *robot {
         files.push(hash("urdf", &loaded.urdf_path)?);
     }
     files.extend(map.map(|map| hash("map", map)).transpose()?);

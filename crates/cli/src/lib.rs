@@ -21,6 +21,7 @@ mod exit_status;
 mod help_texts;
 mod input;
 mod input_warnings;
+mod installed;
 mod invocation;
 mod loss;
 mod messages;
