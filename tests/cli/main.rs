@@ -31,6 +31,7 @@ mod remembered;
 mod replay;
 mod robot_init;
 mod run;
+mod schemas;
 mod servo;
 mod simulate;
 #[cfg(target_os = "linux")]

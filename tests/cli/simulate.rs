@@ -75,7 +75,6 @@ fn the_schema_among_the_scenarios_is_that_of_the_program() {
         }
         assert!(!answer.out.contains("\n  \"required\""), "what is extended may say it");
     }
-    assert_eq!(run(&workspace(), &["schema"]).out, run(&workspace(), &["schema", "simulate"]).out);
 }
 
 /// Files below a folder that end so.

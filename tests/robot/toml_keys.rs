@@ -338,3 +338,21 @@ fn a_joint_has_one_partner_at_most_in_a_differential_and_not_itself() {
     let lonely = refused("differentials = [[\"elbow\"]]");
     assert!(lonely.starts_with("robot.toml:2:18: differentials.0: "), "{lonely}");
 }
+
+#[test]
+fn the_defaults_of_the_schema_are_those_of_the_reader() {
+    let schema = robot::description_schema();
+    let arm = arm_with("");
+    let robot = |toml: &str| load(&[("robot.toml", toml), ("a.urdf", &arm)]).unwrap().robot;
+    let silent = robot("urdf = \"a.urdf\"\n");
+    let mut stated = 0;
+    for (place, at) in [("/properties", ""), ("/$defs/JointEntry/properties", "[joint.elbow]\n")] {
+        for (key, of) in schema.pointer(place).unwrap().as_object().unwrap() {
+            let Some(default) = of.get("default") else { continue };
+            let said = format!("urdf = \"a.urdf\"\n{at}{key} = {default}\n");
+            assert_eq!(robot(&said), silent, "{said}");
+            stated += 1;
+        }
+    }
+    assert!(stated > 10, "{stated} keys have a default");
+}

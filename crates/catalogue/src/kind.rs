@@ -1,6 +1,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Makes [`EffectKind`] of the list of effects.
@@ -10,7 +11,9 @@ macro_rules! kinds {
         ///
         /// Each has a [`name`](Self::name), which files use, and a [`code`](Self::code), which stands
         /// beside the name wherever it is printed.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+        #[derive(
+            Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
+        )]
         #[serde(rename_all = "snake_case")]
         pub enum EffectKind {
             $($(#[$meaning])* $variant,)*

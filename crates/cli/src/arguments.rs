@@ -86,7 +86,7 @@ pub enum Command {
     /// Writes a manual page for the program and for every command
     #[command(after_help = after(help::MAN))]
     Man(man::Arguments),
-    /// Prints the JSON schema of scenario files
+    /// Prints the JSON schema of a file that is read or written; lists all schemas without a name
     Schema(schema::Arguments),
 }
 

@@ -3,6 +3,7 @@ use std::path::{Path, PathBuf};
 use exchange::Export;
 use logs::Run;
 use robot::{Loaded, Robot};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::columns::LogArguments;
@@ -28,7 +29,7 @@ pub struct LossArguments {
 }
 
 /// Torque errors of descriptions of a robot on held-out logs.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub struct Loss {
     logs: Vec<String>,
     joints: Vec<String>,
@@ -36,7 +37,7 @@ pub struct Loss {
 }
 
 /// The torque error of a description.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct ModelError {
     /// `nominal`, `extended`, or the name of a format.
     model: &'static str,

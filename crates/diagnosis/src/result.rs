@@ -1,5 +1,6 @@
 use catalogue::EffectKind;
 use effects::RevealedBy;
+use schemars::JsonSchema;
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 
@@ -7,7 +8,7 @@ use serde::{Serialize, Serializer};
 pub const SCHEMA: &str = "plumbline.diagnosis/1";
 
 /// How well the model explains the logs, per joint and overall.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// The nominal model explains the log down to its noise floor.
@@ -75,7 +76,7 @@ pub struct Diagnosis {
 }
 
 /// One joint.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct JointReport {
     /// Name of the joint.
     pub name: String,
@@ -105,7 +106,7 @@ pub struct JointReport {
 }
 
 /// How the noise floor was found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum NoiseFloorSource {
     /// Difference between runs that repeat a motion.
@@ -131,7 +132,7 @@ impl NoiseFloorSource {
 }
 
 /// Residual effort of a joint and its noise over frequency, after the low-pass.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, JsonSchema)]
 pub struct NoiseSpectrum {
     /// Frequencies (Hz).
     pub hz: Vec<f64>,
@@ -162,10 +163,11 @@ pub struct Estimate {
 }
 
 /// An effect and where it acts.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct EffectAt {
     /// The effect; in JSON its name as `effect`, its code as `code`.
     #[serde(flatten, serialize_with = "code_and_name")]
+    #[schemars(with = "CodeAndName")]
     pub effect: EffectKind,
     /// The joint, for an effect of a joint.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -183,6 +185,16 @@ impl EffectAt {
             None => self.effect.label(),
         }
     }
+}
+
+/// The keys of an effect in JSON.
+#[derive(JsonSchema)]
+#[expect(dead_code, reason = "its keys are those that code_and_name writes")]
+struct CodeAndName {
+    /// Code of the effect, such as `FR01`.
+    code: String,
+    /// Name of the effect.
+    effect: EffectKind,
 }
 
 fn code_and_name<S: Serializer>(effect: &EffectKind, serializer: S) -> Result<S::Ok, S::Error> {
@@ -267,7 +279,7 @@ pub struct Negligible {
 }
 
 /// Structure left at a joint.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Unexplained {
     /// Name of the joint.
     pub joint: String,
@@ -278,7 +290,7 @@ pub struct Unexplained {
 }
 
 /// How much of a residual follows one signal.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Dependence {
     /// The signal, such as `position of elbow`.
     pub signal: String,
@@ -316,7 +328,7 @@ pub struct FittedParameter {
 }
 
 /// An effect that was looked for and not found.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RuledOut {
     /// The effect and its place.
     #[serde(flatten)]
@@ -340,7 +352,7 @@ pub struct Gain {
 }
 
 /// Torque prediction on data that neither selection nor fit has seen, per joint.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct InverseGain {
     /// Mean squared error over the variance of the effort, nominal model.
     pub nmse_before: Vec<f64>,
@@ -357,7 +369,7 @@ pub struct InverseGain {
 }
 
 /// Torque prediction on one held-out part, per joint.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FoldGain {
     /// The held-out run or block.
     pub name: String,
@@ -370,7 +382,7 @@ pub struct FoldGain {
 }
 
 /// The logs and how they were prepared.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct DataSummary {
     /// One entry a run.
     pub runs: Vec<RunSummary>,
@@ -391,7 +403,7 @@ pub struct DataSummary {
 }
 
 /// One run.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RunSummary {
     /// Name of the run.
     pub name: String,

@@ -1,3 +1,4 @@
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::claims::claim::Claim;
@@ -8,7 +9,7 @@ use crate::tracking::tracked_error::TrackedError;
 
 /// Results of an [`Experiment`](crate::Experiment): the injected effects, the findings, and the gain of the findings
 /// on held-out runs.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Metrics {
     /// Name of the robot.
     pub robot: String,

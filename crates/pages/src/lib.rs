@@ -36,6 +36,7 @@ pub use output::error::ReportError;
 pub use output::files::{sha256_of, write_folder};
 pub use output::json::{to_json, with_schema};
 pub use output::provenance::{FileHash, Provenance, quote_argument};
+pub use output::schema::written_schema;
 pub use tables::grid::{Cell, GridColumn, TABLE_DIGITS, mark_least, text_grid};
 pub use tables::html_grid::HtmlGrid;
 pub use text::names::{count_noun, join_names};

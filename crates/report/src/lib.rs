@@ -26,7 +26,7 @@ mod tracking;
 pub use crate::diagnosis::estimate::interval;
 pub use crate::diagnosis::figure::figure;
 pub use crate::diagnosis::input_options::InputOptions;
-pub use crate::diagnosis::json::json;
+pub use crate::diagnosis::json::{diagnosis_schema, json};
 pub use crate::diagnosis::markdown::markdown;
 pub use crate::diagnosis::notebook::notebook;
 pub use crate::diagnosis::page::html;
@@ -39,7 +39,7 @@ pub use change::page::{change_page, change_sentence, sizes_before};
 pub use learning::comparison::{ComparedJoint, DataSet, KernelRow, LearningComparison, ModelRow};
 pub use pages::{
     FileHash, Provenance, ReportError, pack, percent, push_warnings, quote_argument, sha256_of,
-    significant, unit, write_folder,
+    significant, unit, write_folder, written_schema,
 };
 pub use replay::replay_report::{ReplayReport, ReplayedRun, ReplayedTorque, ReplayedWindow};
 pub use run::claims::{ClaimRow, ClaimUnit, claim_rows, claim_text, claims_sentence};

@@ -30,6 +30,7 @@ pub use loaded::Loaded;
 pub use machine::{Machine, MachineFault, Reading};
 pub use meshes::folders::MeshFolders;
 pub use meshes::packages::Packages;
+pub use robot_toml::schema::description_schema;
 pub use structure::actuator::{
     Actuator, CounterbalanceTerm, Coupling, FrictionWave, Ripple, SensingSide, Stribeck,
     TorqueSource, Warming,

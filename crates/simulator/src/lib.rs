@@ -34,7 +34,7 @@ pub use run::simulate::{
     simulate_only,
 };
 pub use run::true_run::{TrueRow, TrueRun, simulate_truly};
-pub use run::write::{LogFormat, write};
+pub use run::write::{LogFormat, truth_schema, write};
 pub use sensors::{EffortSource, JointSensor, LinkEncoder, PositionSide, Sensors, VelocitySource};
 pub use simulator::{Simulator, Stepping};
 pub use strangers::kind::StrangerKind;

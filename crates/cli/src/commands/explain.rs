@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use anstyle::Style;
 use catalogue::{EffectEntry, Family};
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 
 use self::rows::{EffectRow, rows};
@@ -16,6 +17,9 @@ use crate::output::{print, print_json, table};
 
 /// Columns of the values on the page.
 const WIDTH: usize = 79;
+
+/// Name and version of the schema of what `--json` prints of all effects.
+const SCHEMA: &str = "plumbline.effects/1";
 
 /// Arguments of `explain`.
 #[derive(Debug, clap::Args)]
@@ -41,7 +45,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
             }
         }
         None if arguments.json => {
-            print_json(&Effects { schema: "plumbline.effects/1", effects: rows() })?;
+            print_json(&Effects { schema: SCHEMA, effects: rows() })?;
         }
         None if arguments.markdown => print(&page::page(&rows()))?,
         None => print(&list())?,
@@ -49,8 +53,13 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     Ok(ExitStatus::Good)
 }
 
+/// The JSON schema of what `--json` prints of all effects.
+pub fn schema() -> Schema {
+    report::written_schema::<Effects>(SCHEMA, "Plumbline effects")
+}
+
 /// What `--json` prints of all effects.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Effects {
     schema: &'static str,
     effects: Vec<EffectRow>,

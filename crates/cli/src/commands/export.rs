@@ -1,6 +1,7 @@
 use std::path::{Path, PathBuf};
 
 use exchange::{Export, Format, QuantityFate};
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 
 use crate::error::CliError;
@@ -11,6 +12,9 @@ use crate::output::{create_folder, display_path, keep_inputs, print, print_json,
 
 /// Names under which an output folder has the robot with its findings, of a diagnosis and of a run.
 const EXTENDED: [&str; 2] = ["extended.toml", "diagnosis/extended.toml"];
+
+/// Name and version of the schema of what `--json` prints.
+const SCHEMA: &str = "plumbline.export/1";
 
 /// Arguments of `export`.
 #[derive(Debug, clap::Args)]
@@ -56,8 +60,13 @@ impl Target {
     }
 }
 
+/// The JSON schema of what `--json` prints.
+pub fn schema() -> Schema {
+    report::written_schema::<Exports>(SCHEMA, "Plumbline export")
+}
+
 /// What is printed.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Exports {
     schema: &'static str,
     robot: String,
@@ -67,7 +76,7 @@ struct Exports {
 }
 
 /// A file that was written.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Written {
     format: &'static str,
     path: String,
@@ -102,7 +111,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let written =
         |(format, path, export): (_, _, Export)| Written { format, path, quantities: export.fates };
     let exports = Exports {
-        schema: "plumbline.export/1",
+        schema: SCHEMA,
         robot: loaded.robot.name().to_owned(),
         files: exports.into_iter().map(written).collect(),
         loss,

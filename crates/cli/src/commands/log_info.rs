@@ -2,6 +2,7 @@ use std::path::{Path, PathBuf};
 
 use logs::{Channel, JointInfo, LogError, LogInfo, ReadOptions, Run};
 use robot::{Actuator, Inertia, Joint, JointKind, Limits, Link, Robot};
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 
 use crate::columns::ColumnArguments;
@@ -9,6 +10,9 @@ use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::input::PartArguments;
 use crate::output::{display_path, print, print_json, table};
+
+/// Name and version of the schema of what `--json` prints.
+const SCHEMA: &str = "plumbline.log_info/1";
 
 /// Arguments of `log info`.
 #[derive(Debug, clap::Args)]
@@ -60,7 +64,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     }
     if arguments.json {
         let files: Vec<FileInfo> = infos.iter().map(FileInfo::new).collect();
-        print_json(&Document { schema: "plumbline.log_info/1", files })?;
+        print_json(&Document { schema: SCHEMA, files })?;
     } else {
         let blocks: Vec<String> = infos.iter().map(text).collect();
         print(&blocks.join("\n"))?;
@@ -203,14 +207,19 @@ fn short(value: f64) -> String {
     report::significant(value, 3)
 }
 
+/// The JSON schema of what `--json` prints.
+pub fn schema() -> Schema {
+    report::written_schema::<Document<'static>>(SCHEMA, "Plumbline log info")
+}
+
 /// What `--json` prints.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Document<'a> {
     schema: &'static str,
     files: Vec<FileInfo<'a>>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct FileInfo<'a> {
     path: &'a str,
     samples: usize,
@@ -227,14 +236,14 @@ struct FileInfo<'a> {
     repeats: Option<&'a str>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct GapInfo {
     row: usize,
     start_s: f64,
     length_s: f64,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct JointRecord<'a> {
     name: &'a str,
     missing: Vec<&'static str>,

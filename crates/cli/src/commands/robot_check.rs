@@ -2,6 +2,7 @@ use std::path::PathBuf;
 
 use dynamics::{ColumnSet, base_parameter_count};
 use robot::{Actuator, JointKind, Loaded, LockedJoint, Robot, WideInertia};
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 
 use crate::error::CliError;
@@ -11,6 +12,9 @@ use crate::output::{display_path, print, print_json, table};
 
 /// Columns of the text.
 const WIDTH: usize = 100;
+
+/// Name and version of the schema of what `--json` prints.
+const SCHEMA: &str = "plumbline.robot_check/1";
 
 /// Arguments of `robot check`.
 #[derive(Debug, clap::Args)]
@@ -37,8 +41,13 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     Ok(if has_defect { ExitStatus::Gap } else { ExitStatus::Good })
 }
 
+/// The JSON schema of what `--json` prints.
+pub fn schema() -> Schema {
+    report::written_schema::<Check>(SCHEMA, "Plumbline robot check")
+}
+
 /// What is printed.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Check {
     schema: &'static str,
     robot: String,
@@ -53,7 +62,7 @@ struct Check {
 }
 
 /// One joint with its link.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct JointCheck {
     name: String,
     kind: &'static str,
@@ -71,7 +80,7 @@ struct JointCheck {
 }
 
 /// A joint that is held where it is.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct LockCheck {
     name: String,
     position: f64,
@@ -79,7 +88,7 @@ struct LockCheck {
 }
 
 /// How many combinations of parameters any motion can reveal.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct BaseCounts {
     inertial: usize,
     with_rotors: usize,
@@ -95,7 +104,7 @@ impl Check {
         let wide = robot.wide_inertias();
         let friction = ColumnSet { viscous: true, coulomb: true, ..ColumnSet::INERTIAL };
         Self {
-            schema: "plumbline.robot_check/1",
+            schema: SCHEMA,
             robot: robot.name().to_owned(),
             file,
             urdf: display_path(&loaded.urdf_path),

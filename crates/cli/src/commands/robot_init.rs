@@ -12,6 +12,7 @@ use simulator::scenario::Scenario;
 
 use self::excitation::Excitation;
 use self::guess::{DriveGuess, drives};
+use crate::commands::schema::FileKind;
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::input::PartArguments;
@@ -33,7 +34,7 @@ pub struct Arguments {
     /// Its joints and meshes
     #[command(flatten)]
     pub part: PartArguments,
-    /// Folder for robot.toml and scenario.toml
+    /// Folder for robot.toml and scenario.toml, with the schemas that editors check them with
     #[arg(long, value_name = "DIR", default_value = "out/robot")]
     pub out: PathBuf,
     /// Write over a robot.toml that is there
@@ -109,7 +110,13 @@ pub fn write(arguments: &Arguments) -> Result<InitialisedRobot, CliError> {
     let model = relative_to(&arguments.out, &loaded.urdf_path);
     let described = text::robot_toml(&loaded, &model, &drives, rate_hz);
     let scenario = text::scenario_toml(&driven, &excitation);
-    let files = [("robot.toml", described.as_bytes()), ("scenario.toml", scenario.as_bytes())];
+    let [of_robot, of_scenario] = [FileKind::Robot.text()?, FileKind::Scenario.text()?];
+    let files = [
+        ("robot.toml", described.as_bytes()),
+        ("scenario.toml", scenario.as_bytes()),
+        (text::ROBOT_SCHEMA, of_robot.as_bytes()),
+        (text::SCENARIO_SCHEMA, of_scenario.as_bytes()),
+    ];
     report::write_folder(&arguments.out, &files)?;
     warnings.extend(try_out(arguments)?);
     Ok(InitialisedRobot { loaded, drives, warnings })

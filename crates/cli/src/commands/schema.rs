@@ -1,38 +1,116 @@
+mod page;
+
 use clap::ValueEnum;
 use experiment::TrackingSpec;
+use logs::ColumnMap;
+use report::{LearningComparison, ReplayReport, RunReport, TrackingComparison};
 use schemars::{Schema, json_schema, schema_for};
 use simulator::scenario::ScenarioSpec;
 
+use crate::commands::{explain, export, log_info, robot_check};
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
-use crate::output::print_json;
+use crate::output::{print, print_json, table};
 
 /// Arguments of `schema`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// Of which command's scenarios
-    #[arg(value_enum, default_value_t = Kind::Simulate)]
-    command: Kind,
+    /// Of which file; without it all are listed
+    #[arg(value_enum, hide_possible_values = true)]
+    name: Option<FileKind>,
+    /// Print a page in Markdown: every key with its unit, its default and what it means
+    #[arg(long, requires = "name")]
+    markdown: bool,
 }
 
-/// What a scenario is for.
+/// A kind of file, or of what `--json` prints.
 #[derive(Debug, Clone, Copy, ValueEnum)]
-enum Kind {
-    /// Runs of a simulated arm
-    Simulate,
-    /// A motion tracked with models
-    Track,
+pub enum FileKind {
+    /// robot.toml and extended.toml: what a URDF cannot say
+    Robot,
+    /// Column maps, for --map
+    Map,
+    /// scenario.toml: runs of a simulated arm
+    #[value(alias = "simulate")]
+    Scenario,
+    /// Scenarios of track: a motion tracked with models
+    #[value(alias = "track")]
+    TrackingScenario,
+    /// diagnosis.json
+    Diagnosis,
+    /// metrics.json of run
+    Run,
+    /// What simulate has put in, which it writes apart from the logs
+    Truth,
+    /// replay.json
+    Replay,
+    /// learning.json
+    Learning,
+    /// tracking.json
+    Tracking,
+    /// export --json
+    Export,
+    /// robot check --json
+    RobotCheck,
+    /// log info --json
+    LogInfo,
+    /// effects --json
+    Effects,
 }
 
-/// Prints the JSON schema of scenario files, which editors complete and check keys with.
-///
-/// It is that of one file, which may extend others and leave to them what a scenario needs.
+impl FileKind {
+    /// The JSON schema of the file.
+    pub fn schema(self) -> Schema {
+        match self {
+            Self::Robot => robot::description_schema(),
+            Self::Map => ColumnMap::schema(),
+            Self::Scenario => with_extends(schema_for!(ScenarioSpec)),
+            Self::TrackingScenario => with_extends(schema_for!(TrackingSpec)),
+            Self::Diagnosis => report::diagnosis_schema(),
+            Self::Run => RunReport::schema(),
+            Self::Truth => simulator::truth_schema(),
+            Self::Replay => ReplayReport::schema(),
+            Self::Learning => LearningComparison::schema(),
+            Self::Tracking => TrackingComparison::schema(),
+            Self::Export => export::schema(),
+            Self::RobotCheck => robot_check::schema(),
+            Self::LogInfo => log_info::schema(),
+            Self::Effects => explain::schema(),
+        }
+    }
+
+    /// The schema as the text of a file.
+    ///
+    /// # Errors
+    ///
+    /// [`CliError::Output`].
+    pub fn text(self) -> Result<String, CliError> {
+        let text = serde_json::to_string_pretty(&self.schema()).map_err(std::io::Error::from)?;
+        Ok(text + "\n")
+    }
+}
+
+/// Prints the JSON schema of a file, which editors complete and check keys with, or the list of all.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
-    print_schema(match arguments.command {
-        Kind::Simulate => schema_for!(ScenarioSpec),
-        Kind::Track => schema_for!(TrackingSpec),
-    })?;
+    match arguments.name {
+        Some(kind) if arguments.markdown => print(&page::page(&kind.schema()))?,
+        Some(kind) => print(&kind.text()?)?,
+        None => print(&list())?,
+    }
     Ok(ExitStatus::Good)
+}
+
+/// The names of all schemas.
+fn list() -> String {
+    let values = FileKind::value_variants().iter().filter_map(FileKind::to_possible_value);
+    let rows = values.map(|value| {
+        let help = value.get_help().map(ToString::to_string).unwrap_or_default();
+        vec![value.get_name().to_owned(), help]
+    });
+    format!(
+        "{}\nplumbline schema NAME prints one. In TOML, a first line `#:schema ./FILE` tells editors where it is.\n",
+        table(&["schema", "of"], rows)
+    )
 }
 
 /// Prints the schema of one file, which may extend others and leave to them what it needs.
@@ -40,7 +118,12 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
 /// # Errors
 ///
 /// [`CliError::Output`].
-pub fn print_schema(mut schema: Schema) -> Result<(), CliError> {
+pub fn print_schema(schema: Schema) -> Result<(), CliError> {
+    print_json(&with_extends(schema))
+}
+
+/// The schema of one file, which may extend others and leave to them what it needs.
+fn with_extends(mut schema: Schema) -> Schema {
     schema.remove("required");
     let file = json_schema!({ "type": "string" });
     let extends = json_schema!({
@@ -52,5 +135,5 @@ pub fn print_schema(mut schema: Schema) -> Result<(), CliError> {
     if let Some(properties) = schema.get_mut("properties").and_then(|p| p.as_object_mut()) {
         properties.insert("extends".to_owned(), extends.into());
     }
-    print_json(&schema)
+    schema
 }

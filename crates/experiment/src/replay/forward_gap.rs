@@ -2,20 +2,21 @@ use diagnosis::DiagnosisProgress;
 use logs::{LogError, PrepareSettings, PreparedRun, Run, prepare, without_repeats};
 use nalgebra::Point3;
 use robot::Robot;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use simulator::{ForwardReplay, SimulatorError, Windows, replay_torque};
 
 use crate::replay::replayed::{STEP_S, first};
 
 /// Drift of two simulations from the measurement, after several lengths of time.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ForwardGap {
     /// One entry a length of time, the shortest first.
     pub windows: Vec<ForwardWindow>,
 }
 
 /// Drift of two simulations after one length of time.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ForwardWindow {
     /// Length of a window (s): the simulation starts from a measured state and is driven by the measured torque.
     pub window_s: f64,
@@ -28,7 +29,7 @@ pub struct ForwardWindow {
 }
 
 /// Drift of a simulation over windows, at their ends and on the way.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct Drift {
     /// RMS of simulated minus measured position, by joint (rad or m); `None` where a joint ran away in every window.
     pub rms: Option<Vec<f64>>,

@@ -1,4 +1,5 @@
 use diagnosis::{Diagnosis, EffectAt, Finding, RuledOut, Verdict};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use simulator::Truth;
 
@@ -9,7 +10,7 @@ use crate::scoring::stored;
 /// How well a diagnosis names the injected effects.
 ///
 /// Of `k` injected effects, the `k` findings with the largest shares should be these effects.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Score {
     /// The seed of all random draws.
     pub seed: u64,
@@ -34,7 +35,7 @@ pub struct Score {
 }
 
 /// An injected effect.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Injected {
     /// The effect and its place.
     #[serde(flatten, deserialize_with = "stored::place")]
@@ -50,7 +51,7 @@ pub struct Injected {
 }
 
 /// A finding of a diagnosis.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Named {
     /// The effect and its place.
     #[serde(flatten, deserialize_with = "stored::place")]

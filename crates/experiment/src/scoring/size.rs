@@ -2,13 +2,14 @@ use std::f64::consts::TAU;
 
 use catalogue::EffectKind;
 use diagnosis::Estimate;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use simulator::Truth;
 
 use crate::scoring::stored;
 
 /// A parameter of an injected effect, and its estimate in a diagnosis.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Size {
     /// Name of the parameter, as in the catalogue.
     pub name: String,
@@ -20,7 +21,7 @@ pub struct Size {
 }
 
 /// An estimate, stated in the way of the injected value.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Estimated {
     /// Best value.
     #[serde(deserialize_with = "stored::number")]

@@ -5,6 +5,7 @@ use logs::{
     rest_speeds,
 };
 use robot::Robot;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::ExperimentError;
@@ -24,7 +25,7 @@ const ORDER: usize = 4;
 /// with `L` the low-pass of the diagnosis. Faster signals are noise or vibration, which no model of the state
 /// predicts. A described robot predicts along the motion, with delays, springs and encoder errors
 /// ([`unexplained_torque`]). A learned model predicts from the state at each instant.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TorqueError {
     /// Name of the model.
     pub model: String,

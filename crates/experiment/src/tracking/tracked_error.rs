@@ -1,10 +1,11 @@
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tracking::{End, JointMetrics};
 
 use crate::tracking::tracked_run::TrackedRun;
 
 /// Tracking error with one feedforward.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TrackedError {
     /// Name of the feedforward.
     pub model: String,

@@ -6,6 +6,7 @@ use std::{
 use document::{Document, DocumentError, KeyPath};
 use log_formats::FormatError;
 use robot::Robot;
+use schemars::{JsonSchema, Schema, schema_for};
 use serde::Deserialize;
 
 use crate::{
@@ -51,35 +52,67 @@ impl PartialEq for ColumnMap {
     }
 }
 
-#[derive(Deserialize)]
+/// Which columns of a file hold the signals of a robot, and in which units: what `--map` takes.
+///
+/// A pattern names a column for each joint, in the order of the robot or of `joints`. In it `{i}` counts joints from 0, `{n}`
+/// from 1, and `{joint}` is the name of the joint; `q[2:8]` is `q[2]` to `q[7]`, and `q[:]` all from `q[0]` on. A list names
+/// the columns one by one. A signal is
+///
+/// `signal = scale * value in SI units and radians + offset`
+///
+/// A channel that is not in the map is read from the column with its usual name.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(title = "Plumbline column map")]
 struct MapFile {
+    /// Time of the rows; by default the column that is usual in the format.
     time: Option<MappedColumn>,
+    /// Names of the joints, in the order of patterns and lists; by default the joints of the robot.
     joints: Option<Vec<String>>,
+    /// Position of all joints.
     position: Option<Pattern>,
+    /// Velocity of all joints.
     velocity: Option<Pattern>,
+    /// Acceleration of all joints.
     acceleration: Option<Pattern>,
+    /// Torque or force of all joints.
     effort: Option<Pattern>,
+    /// Position that the controller follows, of all joints.
     desired_position: Option<Pattern>,
+    /// Velocity that the controller follows, of all joints.
     desired_velocity: Option<Pattern>,
+    /// Acceleration that the controller follows, of all joints.
     desired_acceleration: Option<Pattern>,
+    /// Torque or force that was commanded, of all joints.
     commanded_effort: Option<Pattern>,
+    /// Position of a second encoder, behind the transmission, of all joints.
     link_position: Option<Pattern>,
+    /// Columns of one joint, by its name; they take precedence over those of all joints.
     #[serde(default)]
     joint: BTreeMap<String, JointMap>,
 }
 
-#[derive(Deserialize)]
+/// The columns of one joint.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct JointMap {
+    /// Position.
     position: Option<MappedColumn>,
+    /// Velocity.
     velocity: Option<MappedColumn>,
+    /// Acceleration.
     acceleration: Option<MappedColumn>,
+    /// Torque or force.
     effort: Option<MappedColumn>,
+    /// Position that the controller follows.
     desired_position: Option<MappedColumn>,
+    /// Velocity that the controller follows.
     desired_velocity: Option<MappedColumn>,
+    /// Acceleration that the controller follows.
     desired_acceleration: Option<MappedColumn>,
+    /// Torque or force that was commanded.
     commanded_effort: Option<MappedColumn>,
+    /// Position of a second encoder, behind the transmission.
     link_position: Option<MappedColumn>,
 }
 
@@ -103,6 +136,11 @@ macro_rules! by_channel {
 }
 
 impl ColumnMap {
+    /// The JSON schema of such a file.
+    pub fn schema() -> Schema {
+        schema_for!(MapFile)
+    }
+
     /// Reads a column map from a TOML file.
     ///
     /// # Errors

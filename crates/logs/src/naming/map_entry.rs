@@ -3,6 +3,7 @@
 use std::fmt;
 use std::marker::PhantomData;
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 
@@ -65,13 +66,17 @@ pub(crate) enum Numbers {
     Each(Vec<f64>),
 }
 
-#[derive(serde::Deserialize)]
+#[derive(serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ColumnTable {
+    /// Name of the column in the file.
     column: String,
+    /// Unit of the values in the file; by default the SI unit, and radians for angles.
     unit: Option<Unit>,
+    /// Factor, such as a torque constant or the sign of an axis.
     #[serde(default = "one")]
     scale: f64,
+    /// Offset that is added last, in SI units and radians.
     #[serde(default)]
     offset: f64,
 }
@@ -80,12 +85,18 @@ fn one() -> f64 {
     1.0
 }
 
-#[derive(serde::Deserialize)]
+#[derive(serde::Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct PatternTable {
+    /// A pattern of names, or one name per joint.
     column: Names,
+    /// Unit of the values in the file; by default the SI unit, and radians for angles.
     unit: Option<Unit>,
+    /// Factors, one for all joints or one per joint.
+    #[schemars(extend("default" = 1.0))]
     scale: Option<Numbers>,
+    /// Offsets that are added last, in SI units and radians, one for all joints or one per joint.
+    #[schemars(extend("default" = 0.0))]
     offset: Option<Numbers>,
 }
 
@@ -226,3 +237,38 @@ impl<'de> Deserialize<'de> for Numbers {
         deserializer.deserialize_any(Either::<Self> { expected, of: PhantomData })
     }
 }
+
+/// Forms of an entry, of which one is written.
+fn one_of<const N: usize>(description: &str, forms: [Schema; N]) -> Schema {
+    json_schema!({ "description": description, "anyOf": forms.to_vec() })
+}
+
+macro_rules! schema_of_forms {
+    ($entry:ident, $description:literal, $($form:ty),+) => {
+        impl JsonSchema for $entry {
+            fn schema_name() -> std::borrow::Cow<'static, str> {
+                stringify!($entry).into()
+            }
+
+            fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+                one_of($description, [$(generator.subschema_for::<$form>()),+])
+            }
+        }
+    };
+}
+
+schema_of_forms!(
+    MappedColumn,
+    "A column, or a table that tells its unit as well.",
+    String,
+    ColumnTable
+);
+schema_of_forms!(
+    Pattern,
+    "The columns of all joints: a pattern of names, one name per joint, or a table that tells their unit as well.",
+    String,
+    Vec<String>,
+    PatternTable
+);
+schema_of_forms!(Names, "A pattern of names, or one name per joint.", String, Vec<String>);
+schema_of_forms!(Numbers, "One number for all joints, or one per joint.", f64, Vec<f64>);

@@ -1,12 +1,13 @@
 use std::{f64::consts::PI, fmt};
 
 use robot::JointKind;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::runs::run::Channel;
 
 /// A unit that a column map may name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[non_exhaustive]
 pub enum Unit {
     /// Seconds.

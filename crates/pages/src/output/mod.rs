@@ -4,3 +4,4 @@ pub(crate) mod error;
 pub(crate) mod files;
 pub(crate) mod json;
 pub(crate) mod provenance;
+pub(crate) mod schema;

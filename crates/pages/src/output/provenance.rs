@@ -1,7 +1,8 @@
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Where a result comes from: enough to repeat it, and no date.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Provenance {
     /// Name of the program.
     pub program: &'static str,
@@ -17,7 +18,7 @@ pub struct Provenance {
 }
 
 /// A file that was read.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FileHash {
     /// What it is: `robot`, `urdf`, `log` or `map`.
     pub role: &'static str,

@@ -1,10 +1,11 @@
 use std::path::PathBuf;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How the robot and the logs of a diagnosis were read, in the words of the program's options: what a later command
 /// needs to read them in the same way. Which files they were is in the provenance.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct InputOptions {
     /// The joints that move; empty for all that move in the files (`--joints`).

@@ -3,12 +3,13 @@ use diagnosis::{
     Verdict,
 };
 use experiment::ForwardGap;
+use schemars::{JsonSchema, Schema};
 use serde::{Serialize, Serializer};
 
 use crate::diagnosis::input_options::InputOptions;
 use crate::diagnosis::report::Report;
 use crate::diagnosis::residual::ResidualModel;
-use pages::{Provenance, ReportError, to_json};
+use pages::{Provenance, ReportError, to_json, written_schema};
 
 /// `diagnosis.json`: the diagnosis in the schema [`diagnosis::SCHEMA`], with provenance.
 ///
@@ -22,48 +23,76 @@ pub fn json(report: &Report) -> Result<String, ReportError> {
     to_json(&document)
 }
 
-/// [`Diagnosis`] as it is written: parameters by name, provenance at the end.
-#[derive(Serialize)]
+/// The JSON schema of `diagnosis.json`.
+pub fn diagnosis_schema() -> Schema {
+    written_schema::<Document<'static>>(diagnosis::SCHEMA, "Plumbline diagnosis")
+}
+
+/// A diagnosis as it is written: parameters by name, provenance at the end.
+#[derive(Serialize, JsonSchema)]
 struct Document<'a> {
     schema: &'a str,
+    /// Name of the robot.
     robot: &'a str,
+    /// The verdict over all joints.
     verdict: Verdict,
+    /// One entry a joint, in the order of the robot.
     joints: &'a [JointReport],
+    /// Named causes, the largest share first.
     findings: Vec<FindingByName<'a>>,
+    /// Structure that no named cause explains.
     unexplained: &'a [Unexplained],
+    /// Effects that were tested and not found.
     ruled_out: &'a [RuledOut],
+    /// What the extended model buys.
     gain: Gains<'a>,
+    /// A learned model of what the findings leave.
     #[serde(skip_serializing_if = "Option::is_none")]
     residual_model: Option<&'a ResidualModel>,
+    /// The logs and how they were prepared.
     data: &'a DataSummary,
+    /// Doubts about the input, each in a sentence.
     warnings: &'a [String],
+    /// How robot and logs were read.
     #[serde(skip_serializing_if = "Option::is_none")]
     input: Option<&'a InputOptions>,
+    /// Where the answer comes from.
     provenance: &'a Provenance,
 }
 
 /// What the extended model buys: in predicting torque, and in simulating motion.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Gains<'a> {
+    /// In predicting torque.
     inverse: &'a InverseGain,
+    /// In simulating motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     forward: Option<&'a ForwardGap>,
 }
 
 /// A finding as it is written.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub(crate) struct FindingByName<'a> {
     #[serde(flatten)]
     at: &'a EffectAt,
+    /// Its parameters by name.
     #[serde(serialize_with = "by_name")]
+    #[schemars(with = "std::collections::BTreeMap<String, Value<'static>>")]
     parameters: &'a [Estimate],
+    /// Share of the nominal residual's power that the finding explains.
     share_explained: f64,
+    /// Log Bayes factor (nats) of the model with the finding against the model without it.
     log_evidence: f64,
+    /// Relative fall of the held-out residual's power when the finding is added to the others.
     held_out_gain: f64,
+    /// Effects that explain the held-out data as well in its place.
     not_separable_from: &'a [EffectAt],
+    /// The motion that would tell it from those.
     #[serde(skip_serializing_if = "Option::is_none")]
     told_apart_by: Option<&'a str>,
+    /// Evidence for it, in sentences.
     evidence: &'a [String],
+    /// Combinations of its parameters that the logs leave open, in words.
     undetermined: &'a [String],
 }
 
@@ -106,13 +135,19 @@ impl<'a> FindingByName<'a> {
 }
 
 /// What stands under the name of a parameter.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Value<'a> {
+    /// Best value.
     value: f64,
+    /// 95 per cent interval, including the uncertainty from unnamed effects.
     ci95: [f64; 2],
+    /// 95 per cent interval of noise alone.
     noise95: [f64; 2],
+    /// Value in the nominal model.
     nominal: f64,
+    /// Unit.
     unit: &'a str,
+    /// Whether the logs determine the value.
     determined: bool,
 }
 

@@ -1,9 +1,10 @@
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use pages::{count_noun, join_names, percent};
 
 /// A learned model of the error that the findings leave.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ResidualModel {
     /// Its short name, such as `named-gp`.
     pub model: &'static str,
@@ -22,7 +23,7 @@ pub struct ResidualModel {
 }
 
 /// The error at one joint on held-out data, with and without the residual model.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ResidualJointRow {
     /// Name of the joint.
     pub name: String,
@@ -42,7 +43,7 @@ pub struct ResidualJointRow {
 }
 
 /// How quickly a model bends with a signal.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LengthScale {
     /// The signal, such as `position of elbow`.
     pub signal: String,

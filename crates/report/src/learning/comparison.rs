@@ -1,6 +1,7 @@
+use schemars::{JsonSchema, Schema};
 use serde::{Serialize, Serializer};
 
-use pages::{FileHash, Provenance, ReportError, with_schema};
+use pages::{FileHash, Provenance, ReportError, with_schema, written_schema};
 
 /// Name and version of the schema of `learning.json`.
 const SCHEMA: &str = "plumbline.learning/1";
@@ -9,7 +10,7 @@ const SCHEMA: &str = "plumbline.learning/1";
 /// sure they are of it, what they cost.
 ///
 /// Every list by joint has the order of `joints`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct LearningComparison {
     /// Name of the robot.
     pub robot: String,
@@ -34,7 +35,7 @@ pub struct LearningComparison {
 }
 
 /// A joint of the robot.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct ComparedJoint {
     /// Its name.
     pub name: String,
@@ -54,7 +55,7 @@ impl ComparedJoint {
 }
 
 /// The samples of some logs.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct DataSet {
     /// The files.
     pub logs: Vec<FileHash>,
@@ -65,7 +66,7 @@ pub struct DataSet {
 }
 
 /// What became of one model.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ModelRow {
     /// Its short name, such as `gp-rbd`.
     pub name: String,
@@ -93,12 +94,13 @@ pub struct ModelRow {
 }
 
 /// Hyperparameters of one joint, and the search that found them.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct KernelRow {
     /// Variance of the function ((N m)² or N²).
     pub signal_variance_nm2: f64,
     /// Length scale of every input, by its name, in the unit of the input.
     #[serde(serialize_with = "by_name")]
+    #[schemars(with = "std::collections::BTreeMap<String, f64>")]
     pub length_scales: Vec<(String, f64)>,
     /// Variance of the noise ((N m)² or N²).
     pub noise_variance_nm2: f64,
@@ -123,6 +125,11 @@ fn by_name<S: Serializer>(scales: &[(String, f64)], serializer: S) -> Result<S::
 }
 
 impl LearningComparison {
+    /// The JSON schema of the file.
+    pub fn schema() -> Schema {
+        written_schema::<Self>(SCHEMA, "Plumbline comparison of learned models")
+    }
+
     /// `learning.json`, in the schema `plumbline.learning/1`. A number that is not finite is
     /// `null`.
     ///

@@ -1,11 +1,12 @@
-use pages::{Provenance, ReportError, with_schema};
+use pages::{Provenance, ReportError, with_schema, written_schema};
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 
 /// Name and version of the schema of `replay.json`.
 const SCHEMA: &str = "plumbline.replay/1";
 
 /// How far a simulation is from recorded motion and torque.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReplayReport {
     /// Name of the robot.
     pub robot: String,
@@ -20,7 +21,7 @@ pub struct ReplayReport {
 }
 
 /// What was simulated of one run.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReplayedRun {
     /// Its name.
     pub name: String,
@@ -33,7 +34,7 @@ pub struct ReplayedRun {
 }
 
 /// Drift of a simulation that the measured torque moves for some time.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReplayedWindow {
     /// How long (ms).
     pub window_ms: f64,
@@ -46,7 +47,7 @@ pub struct ReplayedWindow {
 }
 
 /// Torque of a simulation that follows the measured motion.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ReplayedTorque {
     /// Simulated minus measured, RMS, by joint (N m or N).
     pub error_rms_nm: Vec<f64>,
@@ -55,6 +56,11 @@ pub struct ReplayedTorque {
 }
 
 impl ReplayReport {
+    /// The JSON schema of the file.
+    pub fn schema() -> Schema {
+        written_schema::<Self>(SCHEMA, "Plumbline replay")
+    }
+
     /// `replay.json`, in the schema `plumbline.replay/1`. A number that is not finite is `null`.
     ///
     /// # Errors

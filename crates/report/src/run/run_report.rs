@@ -1,9 +1,10 @@
 use experiment::Metrics;
 use robot::Robot;
+use schemars::Schema;
 
 use crate::run::claims::ClaimUnit;
 use crate::run::diagnosis_summary::DiagnosisSummary;
-use pages::{Provenance, ReportError, with_schema};
+use pages::{Provenance, ReportError, with_schema, written_schema};
 
 /// Name and version of the schema of `metrics.json`.
 const SCHEMA: &str = "plumbline.run/1";
@@ -26,6 +27,11 @@ pub struct RunReport<'a> {
 }
 
 impl RunReport<'_> {
+    /// The JSON schema of `metrics.json`.
+    pub fn schema() -> Schema {
+        written_schema::<Metrics>(SCHEMA, "Plumbline run")
+    }
+
     /// The unit of the joints' positions, and of a thousandth of it.
     pub(crate) fn position_units(&self) -> [&'static str; 2] {
         let links = self.robot.links();

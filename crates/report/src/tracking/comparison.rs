@@ -1,7 +1,8 @@
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 
 use crate::learning::comparison::ComparedJoint;
-use pages::{Provenance, ReportError, column_extremes, with_schema};
+use pages::{Provenance, ReportError, column_extremes, with_schema, written_schema};
 
 /// Name and version of the schema of `tracking.json`.
 const SCHEMA: &str = "plumbline.tracking/1";
@@ -14,7 +15,7 @@ const SCHEMA: &str = "plumbline.tracking/1";
 ///
 /// Every list by joint has the order of `joints`. Errors and gains of a slide
 /// are in m and N in the place of rad and N m.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct TrackingComparison {
     /// Name of the robot.
     pub robot: String,
@@ -39,7 +40,7 @@ pub struct TrackingComparison {
 }
 
 /// The gains of the feedback.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ControllerGains {
     /// Name of the set.
     pub name: String,
@@ -50,7 +51,7 @@ pub struct ControllerGains {
 }
 
 /// The run with one feedforward.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct TrackedModel {
     /// Its short name, such as `gp-rbd`.
     pub name: String,
@@ -89,7 +90,7 @@ pub struct TrackedModel {
 }
 
 /// How well a control loop kept its time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct WallTiming {
     /// Samples of the control loop.
     pub ticks: usize,
@@ -115,7 +116,7 @@ pub struct FirstSeconds {
 }
 
 /// The errors at several gains.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ErrorSweep {
     /// Name of the set of gains that was scaled.
     pub gains: String,
@@ -128,7 +129,7 @@ pub struct ErrorSweep {
 }
 
 /// The errors of one feedforward at several gains.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct SweptFeedforward {
     /// The name of the model.
     pub name: String,
@@ -158,6 +159,11 @@ impl FirstSeconds {
 }
 
 impl TrackingComparison {
+    /// The JSON schema of the file.
+    pub fn schema() -> Schema {
+        written_schema::<Self>(SCHEMA, "Plumbline tracking")
+    }
+
     /// `tracking.json`, in the schema `plumbline.tracking/1`. A number that is not finite is
     /// `null`.
     ///

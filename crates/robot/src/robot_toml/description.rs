@@ -2,6 +2,7 @@ use std::collections::BTreeMap;
 
 use document::KeyPath;
 use nalgebra::{Matrix3, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::loaded::Loaded;
@@ -16,23 +17,29 @@ use crate::structure::part::JointSelection;
 /// The keys of `robot.toml`: what a URDF cannot say.
 ///
 /// At a prismatic joint `nm` stands for N, `rad` for m and `kg_m2` for kg.
-#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(title = "Plumbline robot description")]
 pub(crate) struct Description {
-    /// Path of the URDF, relative to this file.
+    /// Path of the URDF or MJCF, relative to this file.
     pub urdf: String,
-    /// The joints that move. The others are locked, and the file describes the reduced robot.
+    /// The joints that move; by default every joint of the description. The others are locked, and the file describes
+    /// the reduced robot.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joints: Option<Vec<String>>,
+    /// Free fall in the base frame; by default that of an MJCF, (0, 0, -9.81) of a URDF.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gravity_m_per_s2: Option<[f64; 3]>,
+    /// Rate of the joint controller.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub control_rate_hz: Option<f64>,
     /// Where positions are measured, unless a joint says otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = "unknown"))]
     pub sensing: Option<SensingSide>,
     /// What the efforts of a log are, unless a joint says otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = "unknown"))]
     pub torque_source: Option<TorqueSource>,
     /// How efforts that are missing in the logs are computed.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -43,26 +50,29 @@ pub(crate) struct Description {
     /// Where joints are locked (rad or m), zero where it is not said.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub locked: BTreeMap<String, f64>,
+    /// What is known of a joint, by its name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub joint: BTreeMap<String, JointEntry>,
-    /// Named sets of gains.
+    /// Named sets of gains, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub gains: BTreeMap<String, GainEntry>,
-    /// Inertias of moving bodies, a link with everything fixed to it.
+    /// Inertias of moving bodies, a link with everything fixed to it, by the name of the link.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub link: BTreeMap<String, LinkEntry>,
 }
 
 /// `[gains.<name>]`, one entry per joint, in the order of the robot.
-#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GainEntry {
+    /// Proportional gains, one a moving joint, in the order of the robot.
     pub kp_nm_per_rad: Vec<f64>,
+    /// Derivative gains, one a moving joint, in the order of the robot.
     pub kd_nm_s_per_rad: Vec<f64>,
 }
 
 /// `effort_source`
-#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum EffortSourceEntry {
     /// `{ position_loop = { kp_nm_per_rad = [...], kd_nm_s_per_rad = [...], goal_hold_hz = ... } }`
@@ -70,10 +80,12 @@ pub(crate) enum EffortSourceEntry {
 }
 
 /// `position_loop`: gains with one entry per joint, in the order of the robot, and the rate at which goals are renewed.
-#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PositionLoopEntry {
+    /// Proportional gains, one a moving joint, in the order of the robot.
     pub kp_nm_per_rad: Vec<f64>,
+    /// Derivative gains, one a moving joint, in the order of the robot.
     pub kd_nm_s_per_rad: Vec<f64>,
     /// Rate at which goals are renewed, each held until the next one.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -88,23 +100,32 @@ impl PositionLoopEntry {
 }
 
 /// `[link.<name>]`
-#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LinkEntry {
+    /// Mass.
     pub mass_kg: f64,
+    /// Centre of mass in the frame of the link.
     pub com_m: [f64; 3],
+    /// Rotational inertia about the centre of mass, axes of the link.
     pub inertia_kg_m2: InertiaEntry,
 }
 
 /// Rotational inertia about the centre of mass, link axes.
-#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct InertiaEntry {
+    /// Element xx.
     pub xx: f64,
+    /// Element xy.
     pub xy: f64,
+    /// Element xz.
     pub xz: f64,
+    /// Element yy.
     pub yy: f64,
+    /// Element yz.
     pub yz: f64,
+    /// Element zz.
     pub zz: f64,
 }
 

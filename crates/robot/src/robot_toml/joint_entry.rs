@@ -1,4 +1,5 @@
 use document::KeyPath;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::loaded::Loaded;
@@ -11,150 +12,195 @@ use crate::structure::actuator::{
 use crate::structure::control::PdGain;
 
 /// `[joint.<name>]`
-#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct JointEntry {
+    /// Inertia of rotor and gear, seen at the joint; by default the armature of an MJCF, 0 of a URDF.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rotor_inertia_kg_m2: Option<f64>,
+    /// Viscous friction; by default the damping of the URDF or MJCF.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub viscous_nm_s_per_rad: Option<f64>,
-    /// Coulomb friction in both directions.
+    /// Coulomb friction in both directions; by default the friction of the URDF or MJCF. It stands alone or not at
+    /// all beside the two keys of one direction.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coulomb_nm: Option<f64>,
+    /// Coulomb friction in positive motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coulomb_forward_nm: Option<f64>,
+    /// Coulomb friction in negative motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coulomb_backward_nm: Option<f64>,
+    /// Stiffness of a spring between the joint and the link before it; by default that of an MJCF, 0 of a URDF.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spring_stiffness_nm_per_rad: Option<f64>,
+    /// Position at which the spring has no torque; by default that of an MJCF, 0 of a URDF.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spring_rest_rad: Option<f64>,
     /// Torque of the spring per cube of displacement.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = 0.0))]
     pub spring_cubic_nm_per_rad3: Option<f64>,
-    /// Half the width of the loop of its torque over position.
+    /// Half the width of the loop of its torque over position; it needs a stiffness above 0.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = 0.0))]
     pub spring_hysteresis_nm: Option<f64>,
+    /// Effort in the log over torque of the joint.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = 1.0))]
     pub torque_gain: Option<f64>,
+    /// Effort in the log where the torque is zero.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = 0.0))]
     pub torque_offset_nm: Option<f64>,
     /// Free play between motor and link, full width.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = 0.0))]
     pub backlash_rad: Option<f64>,
     /// Stiffness of the transmission; a joint without it is rigid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub elasticity_nm_per_rad: Option<f64>,
     /// Time from command to torque.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = 0.0))]
     pub actuator_delay_ms: Option<f64>,
-    /// Breakaway minus Coulomb friction.
+    /// Breakaway minus Coulomb friction; it needs a Stribeck velocity.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stribeck_excess_nm: Option<f64>,
-    /// Velocity at which 1/e of that is left.
+    /// Velocity at which 1/e of that excess is left.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stribeck_velocity_rad_per_s: Option<f64>,
     /// Dry friction per unit of torque carried.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = 0.0))]
     pub load_friction: Option<f64>,
     /// Displacement over which dry friction builds up; without it friction acts at once.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub presliding_rad: Option<f64>,
-    /// Damping of the presliding displacement.
+    /// Damping of the presliding displacement; it needs that displacement.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub presliding_damping_nm_s_per_rad: Option<f64>,
     /// Time constant of the torque behind its command.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = 0.0))]
     pub actuator_lag_ms: Option<f64>,
     /// Position reported at true position zero.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = 0.0))]
     pub encoder_offset_rad: Option<f64>,
     /// True over reported position.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = 1.0))]
     pub transmission_ratio: Option<f64>,
     /// Time by which the log has effort later than position.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = 0.0))]
     pub effort_skew_ms: Option<f64>,
     /// Time from the row of a goal to the position loop.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("default" = 0.0))]
     pub goal_delay_ms: Option<f64>,
-    /// Largest torque; `inf` where the URDF's limit does not hold.
+    /// Largest torque; by default the description's effort limit, `inf` where that does not hold.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torque_limit_nm: Option<f64>,
+    /// Where the position of this joint is measured; by default what the key `sensing` of the whole file says.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sensing: Option<SensingSide>,
+    /// What the effort of this joint is in a log; by default what the key `torque_source` of the whole file says.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torque_source: Option<TorqueSource>,
+    /// Proportional gain of the joint controller; by default that of a servo of an MJCF. Both gains stand together.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub kp_nm_per_rad: Option<f64>,
+    /// Derivative gain of the joint controller.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub kd_nm_s_per_rad: Option<f64>,
+    /// How the Coulomb level varies with position.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction_wave: Option<WaveEntry>,
+    /// Friction that is lost while the drive warms up, from a cold start of the session.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction_warming: Option<WarmingEntry>,
+    /// Torque that depends on the position of the motor.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torque_ripple: Option<RippleEntry>,
+    /// A spring or counterweight that balances part of the weight; at a joint that turns.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub counterbalance: Option<CounterbalanceEntry>,
+    /// Friction of two motors that drive this joint and another one together.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coupling: Option<CouplingEntry>,
 }
 
 /// `coupling`: friction of two motors that drive the joint and another one together.
-#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CouplingEntry {
     /// The other joint.
     pub with: String,
     /// Motor rotation per unit of the other joint over motor rotation per unit of this joint.
     pub ratio: f64,
+    /// Coulomb friction of the motor that turns with the sum of both joints.
     #[serde(default)]
     pub coulomb_sum_nm: f64,
+    /// Coulomb friction of the motor that turns with their difference.
     #[serde(default)]
     pub coulomb_difference_nm: f64,
+    /// Viscous friction of the motor that turns with the sum.
     #[serde(default)]
     pub viscous_sum_nm_s_per_rad: f64,
+    /// Viscous friction of the motor that turns with the difference.
     #[serde(default)]
     pub viscous_difference_nm_s_per_rad: f64,
 }
 
 /// `friction_wave`: how the Coulomb level varies with position.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WaveEntry {
+    /// Amplitude over the mean Coulomb level.
     pub share: f64,
+    /// Periods in one turn of the joint.
     pub periods_per_turn: f64,
+    /// Phase at position zero.
     #[serde(default)]
     pub phase_rad: f64,
 }
 
 /// `friction_warming`: friction lost while the drive warms up.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WarmingEntry {
+    /// Viscous friction that the warm drive has less than the cold one.
     #[serde(default)]
     pub viscous_lost_nm_s_per_rad: f64,
+    /// Coulomb friction that the warm drive has less.
     #[serde(default)]
     pub coulomb_lost_nm: f64,
+    /// Time after which 1 - 1/e of that is lost.
     pub time_constant_s: f64,
 }
 
 /// `counterbalance`: a spring or counterweight that balances part of the weight.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CounterbalanceEntry {
+    /// Largest torque.
     pub amplitude_nm: f64,
+    /// Phase of the torque over position.
     #[serde(default)]
     pub phase_rad: f64,
 }
 
 /// `torque_ripple`: torque that depends on the position of the motor.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RippleEntry {
+    /// Amplitude.
     pub amplitude_nm: f64,
+    /// Periods in one turn of the joint.
     pub periods_per_turn: f64,
+    /// Phase at position zero.
     #[serde(default)]
     pub phase_rad: f64,
 }

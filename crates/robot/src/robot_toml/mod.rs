@@ -3,4 +3,5 @@
 pub(crate) mod description;
 pub(crate) mod file;
 pub(crate) mod joint_entry;
+pub(crate) mod schema;
 pub(crate) mod write;

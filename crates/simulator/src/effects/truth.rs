@@ -1,12 +1,13 @@
 use std::collections::BTreeMap;
 
 use catalogue::EffectKind;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// One effect in a simulation, with which scoring compares a diagnosis.
 ///
 /// `truth.json` also holds the code of the effect, for readers.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Truth {
     /// The effect.
     pub effect: EffectKind,

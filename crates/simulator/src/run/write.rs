@@ -3,6 +3,8 @@ use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 use logs::LogError;
+use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 
 use crate::effects::truth::Truth;
@@ -73,21 +75,33 @@ pub fn write(
     Ok(())
 }
 
-/// `truth.json`
-#[derive(Serialize)]
+/// The JSON schema of `truth.json`.
+pub fn truth_schema() -> Schema {
+    let generator = SchemaSettings::draft2020_12().for_serialize().into_generator();
+    let mut schema = generator.into_root_schema_for::<TruthFile<'static>>();
+    schema.insert("title".to_owned(), "Plumbline truth".into());
+    schema
+}
+
+/// What was put into the simulated arm.
+#[derive(Serialize, JsonSchema)]
 struct TruthFile<'a> {
+    /// Seed of every random draw.
     seed: u64,
+    /// The effects.
     effects: Vec<Coded<'a>>,
     /// By the name of a run, what it has beside these.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     runs: BTreeMap<&'a str, Vec<Coded<'a>>>,
+    /// Effects of no catalogue.
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     strangers: &'a [StrangerTruth],
 }
 
 /// What was put in, and the code of its effect beside the name.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Coded<'a> {
+    /// Code of the effect, such as `FR01`.
     code: &'static str,
     #[serde(flatten)]
     truth: &'a Truth,

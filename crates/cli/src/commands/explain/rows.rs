@@ -1,8 +1,9 @@
 use catalogue::{EffectKind, Family};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// What the list says of an effect.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub struct EffectRow {
     #[serde(skip)]
     pub kind: EffectKind,

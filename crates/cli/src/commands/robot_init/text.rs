@@ -9,6 +9,10 @@ use super::excitation::{Excitation, SEEDS};
 use super::guess::DriveGuess;
 use super::quote::{key, quote};
 
+/// Files that hold the schemas, beside the files that they are of.
+pub const ROBOT_SCHEMA: &str = "robot.schema.json";
+pub const SCENARIO_SCHEMA: &str = "scenario.schema.json";
+
 const OTHERS: &str = "\
 # More that a joint may say, each at its own place below ([joint.NAME]):
 #   viscous_nm_s_per_rad, coulomb_nm       friction, where a data sheet has it
@@ -22,7 +26,7 @@ const OTHERS: &str = "\
 pub fn robot_toml(loaded: &Loaded, model: &Path, drives: &[DriveGuess], rate_hz: f64) -> String {
     let robot = &loaded.robot;
     let mut text = format!(
-        "# {}: what its description cannot say. Replace what is called a guess.\nurdf = {}\n",
+        "#:schema ./{ROBOT_SCHEMA}\n# {}: what its description cannot say. Replace what is called a guess.\nurdf = {}\n",
         robot.name().replace(['\n', '\r'], " "),
         quote(&model.to_string_lossy())
     );
@@ -87,7 +91,7 @@ fn joint(text: &mut String, link: &Link, drive: &DriveGuess) {
 /// The text of `scenario.toml`.
 pub fn scenario_toml(robot: &Robot, excitation: &Excitation) -> String {
     let mut text = format!(
-        "# {} as described, three runs of sinusoids at all joints, within the limits.\nrobot = \"robot.toml\"\n\n",
+        "#:schema ./{SCENARIO_SCHEMA}\n# {} as described, three runs of sinusoids at all joints, within the limits.\nrobot = \"robot.toml\"\n\n",
         robot.name().replace(['\n', '\r'], " ")
     );
     text.push_str(

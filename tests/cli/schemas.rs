@@ -1,0 +1,175 @@
+//! Schemas: what is shipped, what is read and what is written follows the schema of its kind, and a wrong key does not.
+
+use std::fs;
+use std::path::Path;
+
+use jsonschema::Validator;
+use serde_json::{Value, json};
+
+use crate::arm::{self, Gap};
+use crate::files::workspace;
+use crate::program::run;
+
+/// A map with every form of an entry.
+const MAP: &str = r#"
+time = { column = "t_ns", unit = "ns" }
+joints = ["shoulder", "elbow"]
+position = "q_{i}"
+velocity = ["dq_a", "dq_b"]
+effort = { column = "i[0:2]", unit = "raw", scale = [0.12, 0.08], offset = 0 }
+link_position = { column = ["a", "b"], scale = -1 }
+
+[joint.shoulder]
+position = { column = "q0", unit = "deg", offset = 0.5 }
+effort = "tau"
+"#;
+
+fn schema(name: &str) -> Value {
+    let answer = run(&workspace(), &["schema", name]);
+    assert_eq!((answer.code, answer.err.as_str()), (0, ""), "{name}");
+    serde_json::from_str(&answer.out).unwrap()
+}
+
+fn validator(schema: &Value) -> Validator {
+    jsonschema::validator_for(schema).unwrap()
+}
+
+/// A schema that holds what is written to its keys as well, which for others are open to keys of later versions.
+fn closed(mut schema: Value) -> Value {
+    let close = |object: &mut Value| {
+        if object.get("properties").is_some() && object.get("additionalProperties").is_none() {
+            object["unevaluatedProperties"] = json!(false);
+        }
+    };
+    close(&mut schema);
+    if let Some(all) = schema.get_mut("$defs").and_then(Value::as_object_mut) {
+        all.values_mut().for_each(close);
+    }
+    schema
+}
+
+/// What is wrong with a value, each with its place.
+fn wrong(validator: &Validator, value: &Value) -> Vec<String> {
+    validator.iter_errors(value).map(|e| format!("{}: {e}", e.instance_path())).collect()
+}
+
+fn toml(text: &str) -> Value {
+    toml::from_str(text).unwrap()
+}
+
+fn read_toml(path: &Path) -> Value {
+    toml(&fs::read_to_string(path).unwrap())
+}
+
+#[test]
+fn the_list_names_every_schema_and_each_is_one() {
+    let list = run(&workspace(), &["schema"]).out;
+    let names: Vec<&str> =
+        list.lines().skip(1).map_while(|line| line.split_whitespace().next()).collect();
+    assert_eq!(names.len(), 14, "{list}");
+    for name in names {
+        let schema = schema(name);
+        assert!(jsonschema::meta::is_valid(&schema), "{name}");
+        assert!(schema["title"].as_str().unwrap().starts_with("Plumbline"), "{name}");
+    }
+}
+
+#[test]
+fn robots_follow_their_schema_and_a_wrong_key_does_not() {
+    let of_robot = validator(&schema("robot"));
+    for robot in ["panda", "so101", "ur5e", "wam7"] {
+        let good = read_toml(&workspace().join("robots").join(robot).join("robot.toml"));
+        assert_eq!(wrong(&of_robot, &good), [""; 0], "{robot}");
+        for (key, value) in
+            [("grav_m_per_s2", json!([0, 0, 1])), ("gravity_m_per_s2", json!("down"))]
+        {
+            let mut bad = good.clone();
+            bad[key] = value;
+            assert_ne!(wrong(&of_robot, &bad), [""; 0], "{robot} with {key}");
+        }
+    }
+    for bad in [
+        "urdf = \"a\"\n[joint.elbow]\nviscous = 1",
+        "urdf = \"a\"\nsensing = \"both\"",
+        "urdf = \"a\"\n[joint.elbow.torque_ripple]\namplitude_nm = 1",
+        "control_rate_hz = 1",
+    ] {
+        assert_ne!(wrong(&of_robot, &toml(bad)), [""; 0], "{bad}");
+    }
+}
+
+#[test]
+fn maps_follow_their_schema_and_a_wrong_key_does_not() {
+    let of_map = validator(&schema("map"));
+    assert_eq!(wrong(&of_map, &toml(MAP)), [""; 0]);
+    let folder = tempfile::tempdir().unwrap();
+    arm::write(folder.path(), "map.toml", MAP);
+    assert!(logs::ColumnMap::load(&folder.path().join("map.toml")).is_ok());
+    for (old, new) in
+        [("\"ns\"", "\"min\""), ("offset", "ofset"), ("effort =", "torque ="), ("\"tau\"", "1")]
+    {
+        let bad = MAP.replace(old, new);
+        assert_ne!(wrong(&of_map, &toml(&bad)), [""; 0], "{new}");
+        arm::write(folder.path(), "map.toml", &bad);
+        assert!(logs::ColumnMap::load(&folder.path().join("map.toml")).is_err(), "{new}");
+    }
+}
+
+#[test]
+fn described_robots_name_the_schemas_beside_them() {
+    let folder = arm::folder(Gap::None);
+    let answer = run(folder.path(), &["robot", "init", "arm.urdf", "--out", "mine"]);
+    assert_eq!(answer.code, 0, "{answer:?}");
+    for name in ["robot", "scenario"] {
+        let text = fs::read_to_string(folder.path().join(format!("mine/{name}.toml"))).unwrap();
+        let file = text.lines().next().unwrap().strip_prefix("#:schema ./").unwrap();
+        let beside = fs::read_to_string(folder.path().join("mine").join(file)).unwrap();
+        let beside: Value = serde_json::from_str(&beside).unwrap();
+        assert_eq!(beside, schema(name));
+        assert_eq!(wrong(&validator(&beside), &toml(&text)), [""; 0], "{text}");
+    }
+}
+
+#[test]
+fn what_is_written_follows_its_schema() {
+    let folder = arm::folder(Gap::Friction(1.0));
+    let diagnose =
+        ["diagnose", "--robot", "arm.urdf", "--log", "run_0.csv", "run_1.csv", "--out", "out"];
+    assert!(run(folder.path(), &diagnose).code < 2);
+    let extended = read_toml(&folder.path().join("out/extended.toml"));
+    assert_eq!(wrong(&validator(&schema("robot")), &extended), [""; 0]);
+    let of_diagnosis = validator(&closed(schema("diagnosis")));
+    let text = fs::read_to_string(folder.path().join("out/diagnosis.json")).unwrap();
+    let diagnosis: Value = serde_json::from_str(&text).unwrap();
+    assert_ne!(diagnosis["findings"], json!([]), "a diagnosis with nothing shows little");
+    assert_eq!(wrong(&of_diagnosis, &diagnosis), [""; 0]);
+    let mut bad = diagnosis.clone();
+    bad["verdict"] = json!("fine");
+    assert_ne!(wrong(&of_diagnosis, &bad), [""; 0]);
+    let mut bad = diagnosis;
+    bad.as_object_mut().unwrap().remove("findings");
+    assert_ne!(wrong(&of_diagnosis, &bad), [""; 0]);
+    for (name, arguments) in [
+        ("robot-check", &["robot", "check", "arm.urdf", "--json"][..]),
+        ("log-info", &["log", "info", "run_0.csv", "--robot", "arm.urdf", "--json"]),
+        ("effects", &["effects", "--json"]),
+        ("export", &["export", "out", "--to", "mjcf,urdf", "--log", "run_1.csv", "--json"]),
+    ] {
+        let printed = serde_json::from_str(&run(folder.path(), arguments).out).unwrap();
+        assert_eq!(wrong(&validator(&closed(schema(name))), &printed), [""; 0], "{name}");
+    }
+}
+
+#[test]
+fn the_pages_of_keys_and_commands_are_those_of_the_program() {
+    for (page, arguments) in [
+        ("robot-toml.md", &["schema", "robot", "--markdown"][..]),
+        ("column-maps.md", &["schema", "map", "--markdown"]),
+        ("command-line.md", &["man", "--markdown"]),
+    ] {
+        let made = run(&workspace(), arguments).out;
+        let kept = fs::read_to_string(checks::book::folder().join(page)).unwrap_or_default();
+        assert!(made.lines().count() > 30, "{made}");
+        assert!(made == kept, "plumbline {} > docs/src/{page} makes it anew", arguments.join(" "));
+    }
+}
