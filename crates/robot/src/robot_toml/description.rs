@@ -61,7 +61,7 @@ pub(crate) struct Description {
     pub link: BTreeMap<String, LinkEntry>,
 }
 
-/// `[gains.<name>]`, one entry per joint, in the order of the robot.
+/// A set of gains, one entry per joint, in the order of the robot.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GainEntry {
@@ -71,7 +71,7 @@ pub(crate) struct GainEntry {
     pub kd_nm_s_per_rad: Vec<f64>,
 }
 
-/// `effort_source`
+/// The law by which an effort is computed.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum EffortSourceEntry {
@@ -79,7 +79,7 @@ pub(crate) enum EffortSourceEntry {
     PositionLoop(PositionLoopEntry),
 }
 
-/// `position_loop`: gains with one entry per joint, in the order of the robot, and the rate at which goals are renewed.
+/// A servo that follows goals: gains with one entry per joint, in the order of the robot, and the rate at which goals are renewed.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PositionLoopEntry {
@@ -99,7 +99,7 @@ impl PositionLoopEntry {
     }
 }
 
-/// `[link.<name>]`
+/// Mass and inertia of a moving body.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LinkEntry {

@@ -11,7 +11,7 @@ use crate::structure::actuator::{
 };
 use crate::structure::control::PdGain;
 
-/// `[joint.<name>]`
+/// A joint: its drive, its friction, its sensors and the gains of its controller.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct JointEntry {
@@ -132,7 +132,7 @@ pub(crate) struct JointEntry {
     pub coupling: Option<CouplingEntry>,
 }
 
-/// `coupling`: friction of two motors that drive the joint and another one together.
+/// Friction of two motors that drive the joint and another one together.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CouplingEntry {
@@ -154,7 +154,7 @@ pub(crate) struct CouplingEntry {
     pub viscous_difference_nm_s_per_rad: f64,
 }
 
-/// `friction_wave`: how the Coulomb level varies with position.
+/// How the Coulomb level varies with position.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WaveEntry {
@@ -167,7 +167,7 @@ pub(crate) struct WaveEntry {
     pub phase_rad: f64,
 }
 
-/// `friction_warming`: friction lost while the drive warms up.
+/// Friction lost while the drive warms up.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WarmingEntry {
@@ -181,7 +181,7 @@ pub(crate) struct WarmingEntry {
     pub time_constant_s: f64,
 }
 
-/// `counterbalance`: a spring or counterweight that balances part of the weight.
+/// A spring or counterweight that balances part of the weight.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CounterbalanceEntry {
@@ -192,7 +192,7 @@ pub(crate) struct CounterbalanceEntry {
     pub phase_rad: f64,
 }
 
-/// `torque_ripple`: torque that depends on the position of the motor.
+/// Torque that depends on the position of the motor.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RippleEntry {
