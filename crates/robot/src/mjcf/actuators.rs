@@ -17,7 +17,7 @@ pub struct Motor {
     pub gain: Option<PdGain>,
     /// Lag of the torque (s).
     pub lag_s: Option<f64>,
-    /// Delay of the torque (s).
+    /// Delay of the control (s): of the goal of a servo, else of the torque.
     pub delay_s: Option<f64>,
 }
 

@@ -92,7 +92,12 @@ fn drive(links: &mut [Link], motors: &[Motor]) -> Vec<Option<PdGain>> {
         let limit = &mut link.joint.limits.effort;
         *limit = limit.or(motor.effort);
         link.actuator.lag_s = motor.lag_s.unwrap_or(link.actuator.lag_s);
-        link.actuator.delay_s = motor.delay_s.unwrap_or(link.actuator.delay_s);
+        // The control of a servo is a goal.
+        let late = match motor.gain {
+            Some(_) => &mut link.actuator.goal_delay_s,
+            None => &mut link.actuator.delay_s,
+        };
+        *late = motor.delay_s.unwrap_or(*late);
         gains[index] = motor.gain.or(gains[index]);
     }
     gains
