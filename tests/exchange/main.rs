@@ -3,10 +3,12 @@
 #![allow(clippy::float_cmp, reason = "numbers that pass through a file unchanged are equal")]
 
 mod files;
+mod follows_goals;
 mod held;
 mod held_out;
 mod mujoco;
 mod newton;
 mod python;
 mod rich;
+mod servos;
 mod written_back;

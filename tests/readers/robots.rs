@@ -65,7 +65,7 @@ fn read(path: &Path) -> Result<(), String> {
     let n = loaded.robot.joint_count();
     let rest = vec![0.0; n];
     dynamics::Dynamics::new(&loaded.robot).inverse_dynamics(&rest, &rest, &rest).unwrap();
-    for format in Format::ALL {
+    for format in Format::ALL.into_iter().chain(Format::ACTUATORS) {
         // What a format cannot say is refused there.
         let _ = exchange::export(&loaded, &source, format);
     }

@@ -16,4 +16,19 @@ pub enum ExchangeError {
         /// Name of the joint.
         joint: String,
     },
+    /// Servos are asked for, and no joint has gains.
+    #[error(
+        "no joint of {robot} has a position loop: effort_source = {{ position_loop = ... }} in robot.toml was expected, or \
+         kp_nm_per_rad and kd_nm_s_per_rad of its joints"
+    )]
+    NoPositionLoop {
+        /// Name of the robot.
+        robot: String,
+    },
+    /// A serialiser cannot write the file.
+    #[error("the file cannot be written: {reason}")]
+    Unwritable {
+        /// What it says.
+        reason: String,
+    },
 }

@@ -4,8 +4,9 @@ use crate::fate::{Fate, QuantityFate};
 use crate::format::Format;
 use crate::numbers::size;
 use crate::quantity::{DriveQuantity, quantities};
-use crate::{mjcf, sdf, urdf, usd};
+use crate::{actuator, mjcf, sdf, urdf, usd};
 
+/// What becomes of every quantity of a robot in the description of one.
 pub(crate) fn fates(loaded: &Loaded, format: Format) -> Vec<QuantityFate> {
     let robot = &loaded.robot;
     let mut fates = vec![];
@@ -16,7 +17,7 @@ pub(crate) fn fates(loaded: &Loaded, format: Format) -> Vec<QuantityFate> {
             Format::Urdf => Fate::omit("a URDF has no gravity: turn the base by as much"),
             Format::Mjcf => Fate::exact("<option gravity>"),
             Format::Sdf => Fate::near("<pose> of the model; its length is the world's"),
-            Format::Isaac => Fate::exact("gravityDirection, gravityMagnitude of a PhysicsScene"),
+            _ => Fate::exact("gravityDirection, gravityMagnitude of a PhysicsScene"),
         };
         let what = format!("gravity ({x}, {y}, {z}) m/s²");
         fates.push(QuantityFate { at: "robot".to_owned(), what, fate });
@@ -50,6 +51,9 @@ pub(crate) fn fate_of(quantity: DriveQuantity, link: &Link, format: Format) -> F
         Format::Mjcf => mjcf::write::fate(quantity, link),
         Format::Sdf => sdf::fate(quantity, link),
         Format::Isaac => usd::joint::fate(quantity, link),
+        Format::ActuatorMjcf | Format::ActuatorIsaac | Format::ActuatorBam => {
+            actuator::fates::fate(quantity, link, format)
+        }
     }
 }
 

@@ -6,9 +6,13 @@
 //!                                           \-> the robot that the file describes
 //! ```
 //!
+//! Of a robot with position loops, the servos alone can be written as well: for a model of MuJoCo, for Isaac Lab, and as
+//! parameters of BAM.
+//!
 //! [`export`] writes what a format can hold, states the fate of every quantity, and returns the robot that the file
 //! describes. The torques of both robots show the loss.
 
+mod actuator;
 mod error;
 mod export;
 mod fate;
@@ -20,6 +24,7 @@ mod quantity;
 mod reported;
 mod robot_in_file;
 mod sdf;
+mod servo;
 mod unsupported;
 mod urdf;
 mod usd;

@@ -1,4 +1,4 @@
-use robot::{Actuator, Link, Robot};
+use robot::{Actuator, Link, PdGain, Robot};
 
 use crate::numbers::size;
 
@@ -55,6 +55,10 @@ pub enum DriveQuantity {
     Skew,
     /// Goals that reach the position loop late.
     GoalDelay,
+    /// Gains of the position loop.
+    Loop,
+    /// Time for which a goal is held.
+    GoalHold,
 }
 
 /// Half the sum and half the difference of the levels in both directions.
@@ -111,6 +115,13 @@ pub fn quantities(robot: &Robot, link: &Link) -> Vec<(DriveQuantity, String)> {
     add(Q::Ratio, a.transmission_ratio, 1.0, "true over reported position", "");
     add(Q::Skew, 1e3 * a.effort_skew_s, 0.0, "effort late by", "ms");
     add(Q::GoalDelay, 1e3 * a.goal_delay_s, 0.0, "goals late by", "ms");
+    if let Some(PdGain { kp, kd }) = a.position_loop {
+        let what = format!("position loop {} {nm}/{rad}, {} {nm}·s/{rad}", size(kp), size(kd));
+        list.push((Q::Loop, what));
+        if let Some(hold_s) = a.goal_hold_s {
+            list.push((Q::GoalHold, format!("goals held for {} ms", size(1e3 * hold_s))));
+        }
+    }
     if let Some(coupling) = a.coupling {
         let other = robot.joint_names().nth(coupling.other).unwrap_or_default();
         list.push((Q::Coupling, format!("friction of motors shared with {other}")));

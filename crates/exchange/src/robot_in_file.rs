@@ -1,16 +1,19 @@
 use robot::{Actuator, Inertia, Link, Loaded, Robot};
 
+use crate::actuator::isaac_lab::in_steps;
 use crate::fate::Fate;
 use crate::fates::fate_of;
 use crate::format::Format;
 use crate::quantity::{DriveQuantity, levels, quantities};
+use crate::servo::Servo;
 use crate::{mjcf, usd};
 
 /// The robot that a file of `format` describes, made from `reported`, whose positions are the reported ones.
 ///
 /// Dropped quantities become those of an ideal drive. Approximated ones are as written: an MJCF has a constant torque
 /// as a soft spring and raised moments, a USD layer has no friction beyond the Coulomb level in motion. A URDF has
-/// the default gravity of its readers, and an SDF a world with gravity of the robot's magnitude.
+/// the default gravity of its readers, and an SDF a world with gravity of the robot's magnitude. A file of servos has
+/// their quantities alone; the bodies are those of `reported`.
 pub(crate) fn robot_in_file(loaded: &Loaded, reported: &Robot, format: Format) -> Robot {
     let mut held = reported.clone();
     if format == Format::Urdf {
@@ -57,7 +60,11 @@ fn write(quantity: DriveQuantity, link: &Link, format: Format, drive: &mut Actua
             leave_out(quantity, drive);
         }
         // The level at rest is gone at once in motion.
-        (DriveQuantity::Stribeck, Format::Isaac) => drive.stribeck = None,
+        (DriveQuantity::Stribeck, Format::Isaac | Format::ActuatorIsaac) => drive.stribeck = None,
+        (DriveQuantity::GoalDelay, Format::ActuatorIsaac) => {
+            let late_s = Servo::of(link).map_or(0.0, |servo| servo.late_s);
+            drive.goal_delay_s += in_steps(late_s) - late_s;
+        }
         _ => {}
     }
 }
@@ -92,5 +99,7 @@ fn leave_out(quantity: DriveQuantity, drive: &mut Actuator) {
         Q::Ratio => drive.transmission_ratio = 1.0,
         Q::Skew => drive.effort_skew_s = 0.0,
         Q::GoalDelay => drive.goal_delay_s = 0.0,
+        // Efforts of a log were computed with both when it was read.
+        Q::Loop | Q::GoalHold => {}
     }
 }

@@ -18,6 +18,8 @@ pub(crate) fn fate_of_unsupported(quantity: DriveQuantity) -> Fate {
         Q::Ratio => "divide positions by it before they are compared",
         Q::Skew => "it is one of the log: move its efforts by as much",
         Q::GoalDelay => "send goals to the simulated servos later by as much",
+        Q::Loop => "the format has no position loops: export --to actuator writes this one",
+        Q::GoalHold => "send goals to the simulated servos as seldom",
         Q::EffortGain => "it is one of the log: divide its efforts by it",
         Q::EffortOffset => "it is one of the log: subtract it from its efforts",
         Q::Delay | Q::Lag => "the format has no actuators with a memory",

@@ -2,15 +2,14 @@
 
 use robot::{Link, Robot};
 
+use crate::mjcf::position;
 use crate::numbers::{number, numbers};
 use crate::quantity::levels;
+use crate::servo::Servo;
 use crate::xml_text::XmlText;
 
 /// Stiffness of the spring that stands for a constant torque, over that torque (1/rad).
 const SOFT: f64 = 1e-4;
-
-/// Step of the simulation that a delay is counted in (s): MuJoCo's default.
-const STEP_S: f64 = 0.002;
 
 /// The spring of a joint as `stiffness`, its cubic part and `springref`, with the constant torque that
 /// friction of two levels leaves; `None` where that has no place.
@@ -49,14 +48,7 @@ pub fn joints(sheet: &mut XmlText, link: &Link) {
     if let Some((low, high)) = joint.limits.position {
         attributes.push(("range", numbers(&[low, high])));
     }
-    let (mean, _) = levels(a);
-    for (key, value) in
-        [("damping", a.viscous), ("frictionloss", mean), ("armature", a.rotor_inertia)]
-    {
-        if value.abs() > 0.0 {
-            attributes.push((key, number(value)));
-        }
-    }
+    attributes.extend(drive_attributes(link));
     let [k, cubic, rest] =
         springs(link).unwrap_or([a.spring_stiffness, a.spring_cubic, a.spring_rest]);
     if cubic.abs() > 0.0 {
@@ -82,6 +74,15 @@ pub fn joints(sheet: &mut XmlText, link: &Link) {
     }
 }
 
+/// Friction and rotor of a drive, as attributes of its joint; those that are 0 are left out.
+pub fn drive_attributes(link: &Link) -> Vec<(&'static str, String)> {
+    let a = &link.actuator;
+    let all =
+        [("damping", a.viscous), ("frictionloss", levels(a).0), ("armature", a.rotor_inertia)];
+    let present = all.into_iter().filter(|(_, value)| value.abs() > 0.0);
+    present.map(|(key, value)| (key, number(value))).collect()
+}
+
 /// The two tendons of motors that drive a joint and another one together.
 pub fn tendons(sheet: &mut XmlText, robot: &Robot, link: &Link) {
     let Some(coupling) = link.actuator.coupling else { return };
@@ -102,12 +103,15 @@ pub fn tendons(sheet: &mut XmlText, robot: &Robot, link: &Link) {
     }
 }
 
-/// The motor of a joint: its control is the effort that a log would show.
+/// The actuator of a joint: its control is the goal of the position loop, or the effort that a log would show.
 ///
 /// ```text
 /// effort = gain tau + offset,   tau = effort / gain - offset / gain
 /// ```
 pub fn actuator(sheet: &mut XmlText, link: &Link) {
+    if let Some(servo) = Servo::of(link) {
+        return position::actuator(sheet, link, &servo);
+    }
     let a = &link.actuator;
     let name = || ("name", link.joint.name.clone());
     let joint = || ("joint", link.joint.name.clone());
@@ -126,9 +130,6 @@ pub fn actuator(sheet: &mut XmlText, link: &Link) {
         attributes.push(("dyntype", "filter".to_owned()));
         attributes.push(("dynprm", number(a.lag_s)));
     }
-    if a.delay_s > 0.0 {
-        attributes.push(("delay", number(a.delay_s)));
-        attributes.push(("nsample", number((a.delay_s / STEP_S).ceil() + 2.0)));
-    }
+    attributes.extend(position::history(a.delay_s));
     sheet.leaf("general", &attributes);
 }

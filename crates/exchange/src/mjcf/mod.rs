@@ -1,4 +1,5 @@
 //! The format of MuJoCo.
 
 pub(crate) mod joint;
+pub(crate) mod position;
 pub(crate) mod write;

@@ -5,6 +5,7 @@ use robot::{Inertia, Link, Loaded, Robot, Shape, Visual};
 
 use crate::fate::Fate;
 use crate::mjcf::joint::{actuator, gives, joints, springs, tendons};
+use crate::mjcf::position::servo_fate;
 use crate::numbers::{number, numbers};
 use crate::quantity::DriveQuantity;
 use crate::unsupported::fate_of_unsupported;
@@ -17,10 +18,10 @@ const LEAST: f64 = 1e-9;
 const SMALLEST: f64 = 1e-14;
 
 /// Dry friction of the solver: the time in which it stops a joint (s) and its damping ratio, ...
-const FRICTION_REFERENCE: &str = "0.004 1";
+pub const FRICTION_REFERENCE: &str = "0.004 1";
 
 /// ... and the share of an acceleration that it takes away.
-const FRICTION_IMPEDANCE: &str = "0.999 0.999 0.001";
+pub const FRICTION_IMPEDANCE: &str = "0.999 0.999 0.001";
 
 /// The robot as an MJCF.
 pub fn write(loaded: &Loaded, robot: &Robot) -> String {
@@ -177,6 +178,11 @@ pub fn fate(quantity: DriveQuantity, link: &Link) -> Fate {
         Q::SpringCubic => Fate::exact("third number of stiffness (MuJoCo 4)"),
         Q::Coupling => Fate::exact("frictionloss and damping of two tendons"),
         Q::EncoderOffset => Fate::exact("pos and quat of the body"),
+        Q::Loop | Q::GoalDelay | Q::EffortGain | Q::EffortOffset | Q::Delay | Q::Lag
+            if a.position_loop.is_some() =>
+        {
+            servo_fate(quantity, link)
+        }
         Q::EffortGain => Fate::exact("gainprm of the actuator"),
         Q::EffortOffset => Fate::exact("biasprm of the actuator"),
         Q::Lag => Fate::exact("dyntype filter of the actuator"),

@@ -1,7 +1,7 @@
 //! A layer of Universal Scene Description, one rigid body a moving link.
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, SymmetricEigen, UnitQuaternion, Vector3};
-use robot::{Inertia, Loaded, Robot};
+use robot::{Inertia, Link, Loaded, Robot};
 
 use crate::numbers::number;
 use crate::usd::joint::{Ends, joint};
@@ -11,33 +11,49 @@ use crate::usd::text::{PrimNames, UsdText, rotation, vector};
 pub fn write(loaded: &Loaded, robot: &Robot) -> String {
     let mut names = PrimNames::default();
     let root = names.of(robot.name());
-    let mut prims = PrimNames::default();
+    let prims = prim_names(loaded, robot);
     let path = |name: String| format!("/{root}/{name}");
     let mut text = UsdText::new(&root);
     scene(&mut text, &names.of("physicsScene"), robot.gravity_in_base());
     text.open("Xform", &root, &["PhysicsArticulationRootAPI".to_owned()]);
-    let base = prims.of(&loaded.base_link);
+    let base = prims.base;
     text.open("Xform", &base, &["PhysicsRigidBodyAPI".to_owned()]);
     text.original_name(&loaded.base_link);
     text.close();
-    text.open("PhysicsFixedJoint", &prims.of("base_to_world"), &[]);
+    text.open("PhysicsFixedJoint", &prims.base_joint, &[]);
     text.set("rel physics:body1", &format!("<{}>", path(base.clone())));
     text.close();
     let mut placed: Vec<(Isometry3<f64>, String)> = Vec::new();
-    for link in robot.links() {
+    for (link, (own, joint_prim)) in robot.links().iter().zip(prims.links) {
         let (parent_pose, parent) = match link.parent.and_then(|parent| placed.get(parent)) {
             Some((pose, name)) => (*pose, name.clone()),
             None => (Isometry3::identity(), base.clone()),
         };
         let pose = parent_pose * link.joint.parent_from_joint;
-        let own = prims.of(&link.name);
         body(&mut text, &own, &link.name, &pose, &link.inertia);
         let ends = Ends { parent: path(parent), child: path(own.clone()) };
-        joint(&mut text, &prims.of(&link.joint.name), &ends, link);
+        joint(&mut text, &joint_prim, &ends, link);
         placed.push((pose, own));
     }
     text.close();
     text.finish()
+}
+
+/// Unique prim names below the articulation.
+pub struct ArticulationPrims {
+    base: String,
+    base_joint: String,
+    /// Of each link and of its joint.
+    pub links: Vec<(String, String)>,
+}
+
+/// The names under which a layer has the links and joints of a robot.
+pub fn prim_names(loaded: &Loaded, robot: &Robot) -> ArticulationPrims {
+    let mut names = PrimNames::default();
+    let base = names.of(&loaded.base_link);
+    let base_joint = names.of("base_to_world");
+    let of = |link: &Link| (names.of(&link.name), names.of(&link.joint.name));
+    ArticulationPrims { base, base_joint, links: robot.links().iter().map(of).collect() }
 }
 
 fn scene(text: &mut UsdText, name: &str, gravity_in_base: Vector3<f64>) {
