@@ -104,3 +104,44 @@ fn a_nominal_robot_of_other_joints_is_told() {
     let lonely = run(folder.path(), &["export", "arm.urdf", "--nominal", "arm.urdf"]);
     assert_eq!(lonely.code, 2, "a nominal robot without logs: {}", lonely.err);
 }
+
+const SERVOS: &str = "urdf = \"arm.urdf\"\neffort_source = { position_loop = { kp_nm_per_rad = [90.0, 40.0], kd_nm_s_per_rad = [6.0, 2.0], goal_hold_hz = 50.0 } }\n[joint.shoulder]\ngoal_delay_ms = 30.0\n[joint.elbow]\ngoal_delay_ms = 30.0\ncoulomb_nm = 0.8\nbacklash_rad = 0.01\n";
+
+#[test]
+fn servos_are_written_for_simulators_with_what_each_leaves_out() {
+    let folder = arm::folder(Gap::None);
+    arm::write(folder.path(), "servo.toml", SERVOS);
+    let answer = run(folder.path(), &["export", "servo.toml", "--to", "actuator", "--out", "card"]);
+    assert_eq!((answer.code, answer.err.as_str()), (0, ""), "{answer:?}");
+    for expected in [
+        "card/extended_actuator.xml: ",
+        "card/extended_actuator.py: ",
+        "card/extended_actuator.json: ",
+        "position loop 90 N·m/rad, 6 N·m·s/rad",
+        "6 of 5 ms are 30 ms, 0 ms off",
+        "gearboxes of BAM are rigid and without play",
+    ] {
+        assert!(answer.out.contains(expected), "{expected} is missing in\n{}", answer.out);
+    }
+    assert_eq!(std::fs::read_dir(folder.path().join("card")).unwrap().count(), 3);
+    let all = run(folder.path(), &["export", "servo.toml", "--out", "all"]);
+    assert_eq!(all.code, 0, "{}", all.err);
+    assert_eq!(std::fs::read_dir(folder.path().join("all")).unwrap().count(), 7);
+    let text = std::fs::read_to_string(folder.path().join("all/extended.xml")).unwrap();
+    assert!(text.contains("kp=\"90\" kv=\"6\" forcerange=\"-80 80\" delay=\"0.03\""), "{text}");
+}
+
+/// Loops without damping are no law of BAM: there is a reason and no file.
+#[test]
+fn an_arm_without_servos_or_laws_is_told() {
+    let folder = arm::folder(Gap::None);
+    let export = ["export", "arm.urdf", "--to", "mjcf,actuator", "--out", "card"];
+    let answer = run(folder.path(), &export);
+    assert_eq!(answer.code, 3, "{}", answer.err);
+    assert!(answer.err.contains("no joint of arm has a position loop"), "{}", answer.err);
+    assert!(!folder.path().join("card").exists(), "nothing is written before all is there");
+    arm::write(folder.path(), "servo.toml", &SERVOS.replace("[6.0, 2.0]", "[0.0, 0.0]"));
+    let answer = run(folder.path(), &["export", "servo.toml", "--to", "actuator", "--out", "card"]);
+    assert!(answer.out.contains("actuator_bam, no file: "), "{}", answer.out);
+    assert_eq!(std::fs::read_dir(folder.path().join("card")).unwrap().count(), 2);
+}

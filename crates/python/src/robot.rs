@@ -87,7 +87,8 @@ impl PyRobot {
         force: bool,
     ) -> PyResult<Vec<String>> {
         let part = part(joints.as_deref(), packages, allow_outside)?;
-        let written = cli::init_robot(&RobotInit { file: path, part, out: folder, force, json: false });
+        let written =
+            cli::init_robot(&RobotInit { file: path, part, out: folder, force, json: false });
         Ok(written.map_err(exception)?.warnings)
     }
 

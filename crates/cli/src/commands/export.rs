@@ -1,6 +1,7 @@
 use std::path::{Path, PathBuf};
 
 use exchange::{Export, Format, QuantityFate};
+use robot::{Link, Loaded};
 use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 
@@ -23,7 +24,8 @@ pub struct Arguments {
     path: PathBuf,
     #[command(flatten)]
     part: PartArguments,
-    /// Formats, with commas between them; all where it is left out
+    /// Formats, with commas between them; where it is left out, all of a robot, and `actuator` for servos whose position
+    /// loop robot.toml describes
     #[arg(long, value_enum, value_name = "FORMAT", value_delimiter = ',')]
     to: Vec<Target>,
     /// Folder for the files; that of the robot where it is left out
@@ -47,15 +49,19 @@ enum Target {
     Sdf,
     /// A USD layer with the schemas of PhysX and Newton, for Isaac Sim and Isaac Lab: extended.usda
     Isaac,
+    /// The servos alone: position actuators of MuJoCo (extended_actuator.xml), actuators of Isaac Lab
+    /// (extended_actuator.py), parameters of BAM (extended_actuator.json)
+    Actuator,
 }
 
 impl Target {
-    fn format(self) -> Format {
+    fn formats(self) -> &'static [Format] {
         match self {
-            Self::Urdf => Format::Urdf,
-            Self::Mjcf => Format::Mjcf,
-            Self::Sdf => Format::Sdf,
-            Self::Isaac => Format::Isaac,
+            Self::Urdf => &[Format::Urdf],
+            Self::Mjcf => &[Format::Mjcf],
+            Self::Sdf => &[Format::Sdf],
+            Self::Isaac => &[Format::Isaac],
+            Self::Actuator => &Format::ACTUATORS,
         }
     }
 }
@@ -79,7 +85,8 @@ struct Exports {
 #[derive(Serialize, JsonSchema)]
 struct Written {
     format: &'static str,
-    path: String,
+    /// None where the format has none of the robot.
+    path: Option<String>,
     quantities: Vec<QuantityFate>,
 }
 
@@ -95,18 +102,25 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     })?;
     let folder = arguments.out.clone().or_else(|| path.parent().map(Path::to_owned));
     let folder = folder.filter(|f| !f.as_os_str().is_empty()).unwrap_or_else(|| PathBuf::from("."));
-    create_folder(&folder)?;
-    let asked: Vec<Format> = arguments.to.iter().map(|target| target.format()).collect();
-    let formats = if asked.is_empty() { Format::ALL.to_vec() } else { asked };
-    let mut exports: Vec<(&'static str, String, Export)> = vec![];
-    for format in formats {
+    let mut exports: Vec<(&'static str, Option<String>, Export)> = vec![];
+    for format in formats(arguments, &loaded) {
         let export = exchange::export(&loaded, &source, format)?;
-        let name = format!("extended.{}", format.extension());
-        keep_inputs(&folder, &[&name], [loaded.urdf_path.as_path()])?;
-        report::write_folder(&folder, &[(&name, export.text.as_bytes())])?;
-        exports.push((format.name(), display_path(&folder.join(&name)), export));
+        let name = format.file_name("extended");
+        let path = (!export.text.is_empty()).then_some(name);
+        exports.push((format.name(), path, export));
     }
-    let held = exports.iter().map(|(format, path, export)| (*format, path.clone(), export));
+    let files = exports.iter().filter_map(|(_, name, export)| Some((name.as_deref()?, export)));
+    let files: Vec<(&str, &[u8])> =
+        files.map(|(name, export)| (name, export.text.as_bytes())).collect();
+    let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
+    create_folder(&folder)?;
+    keep_inputs(&folder, &names, [loaded.urdf_path.as_path()])?;
+    report::write_folder(&folder, &files)?;
+    for (_, name, _) in &mut exports {
+        *name = name.take().map(|name| display_path(&folder.join(name)));
+    }
+    let held =
+        exports.iter().filter_map(|(format, path, export)| Some((*format, path.clone()?, export)));
     let loss = arguments.loss.measure(&path, &loaded, &arguments.part, held)?;
     let written =
         |(format, path, export): (_, _, Export)| Written { format, path, quantities: export.fates };
@@ -124,6 +138,17 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     Ok(ExitStatus::Good)
 }
 
+/// The formats that are asked for; all of a robot, and of its servos where it has some, where none is.
+fn formats(arguments: &Arguments, loaded: &Loaded) -> Vec<Format> {
+    if !arguments.to.is_empty() {
+        return arguments.to.iter().flat_map(|target| target.formats()).copied().collect();
+    }
+    let is_servo = |link: &Link| link.actuator.position_loop.is_some();
+    let servos: &[Format] =
+        if loaded.robot.links().iter().any(is_servo) { &Format::ACTUATORS } else { &[] };
+    [&Format::ALL, servos].concat()
+}
+
 /// The description of the robot in an output folder, or the file itself.
 fn description_file(path: &Path) -> Result<PathBuf, CliError> {
     if !path.is_dir() {
@@ -138,7 +163,11 @@ fn text(exports: &Exports) -> String {
     for file in &exports.files {
         let of = |word: &str| file.quantities.iter().filter(|q| q.fate.word() == word).count();
         let counts = ["exact", "approximated", "dropped"].map(|w| format!("{} {w}", of(w)));
-        text.push_str(&format!("{}: {}\n", file.path, counts.join(", ")));
+        let place = match &file.path {
+            Some(path) => path.clone(),
+            None => format!("{}, no file: it has the law of none of the servos", file.format),
+        };
+        text.push_str(&format!("{place}: {}\n", counts.join(", ")));
         let rows = file.quantities.iter().map(|q| {
             vec![q.at.clone(), q.what.clone(), q.fate.word().to_owned(), q.fate.to_string()]
         });
