@@ -24,6 +24,25 @@ position = { column = "q0", unit = "deg", offset = 0.5 }
 effort = "tau"
 "#;
 
+/// Two logs against one of more friction.
+const COMPARE: [&str; 10] = [
+    "compare",
+    "--robot",
+    "arm.urdf",
+    "--before",
+    "run_0.csv",
+    "run_1.csv",
+    "--after",
+    "more.csv",
+    "--json",
+    "--quiet",
+];
+
+/// A motion for a pair of causes that it tells apart, and for one that no motion does.
+const DESIGN: [&str; 6] = ["design", "--robot", "arm.urdf", "--duration-s", "10", "--json"];
+const TOLD_APART: [&str; 4] = ["--separate", "FR01@elbow", "--from", "FR02@elbow"];
+const ALIKE: [&str; 4] = ["--separate", "payload@fore", "--from", "IN02@fore"];
+
 fn schema(name: &str) -> Value {
     let answer = run(&workspace(), &["schema", name]);
     assert_eq!((answer.code, answer.err.as_str()), (0, ""), "{name}");
@@ -53,6 +72,23 @@ fn wrong(validator: &Validator, value: &Value) -> Vec<String> {
     validator.iter_errors(value).map(|e| format!("{}: {e}", e.instance_path())).collect()
 }
 
+/// A value under another name, without keys, and with a key more: its own, or of an object in it or in a list of it.
+fn with_wrong_keys(good: &Value) -> Vec<Value> {
+    let mut other = good.clone();
+    other["schema"] = json!("plumbline.other/1");
+    let mut bad = vec![json!({}), other];
+    let inside = good.as_object().unwrap().keys();
+    let inside = inside.flat_map(|key| [format!("/{key}"), format!("/{key}/0")]);
+    for place in inside.chain([String::new()]) {
+        let mut more = good.clone();
+        if let Some(object) = more.pointer_mut(&place).and_then(Value::as_object_mut) {
+            object.insert("mistyped".to_owned(), json!(1));
+            bad.push(more);
+        }
+    }
+    bad
+}
+
 fn toml(text: &str) -> Value {
     toml::from_str(text).unwrap()
 }
@@ -66,7 +102,7 @@ fn the_list_names_every_schema_and_each_is_one() {
     let list = run(&workspace(), &["schema"]).out;
     let names: Vec<&str> =
         list.lines().skip(1).map_while(|line| line.split_whitespace().next()).collect();
-    assert_eq!(names.len(), 14, "{list}");
+    assert_eq!(names.len(), 19, "{list}");
     for name in names {
         let schema = schema(name);
         assert!(jsonschema::meta::is_valid(&schema), "{name}");
@@ -133,6 +169,7 @@ fn described_robots_name_the_schemas_beside_them() {
 #[test]
 fn what_is_written_follows_its_schema() {
     let folder = arm::folder(Gap::Friction(1.0));
+    arm::write(folder.path(), "more.csv", &arm::log(3, Gap::Friction(2.0)));
     let diagnose =
         ["diagnose", "--robot", "arm.urdf", "--log", "run_0.csv", "run_1.csv", "--out", "out"];
     assert!(run(folder.path(), &diagnose).code < 2);
@@ -153,10 +190,21 @@ fn what_is_written_follows_its_schema() {
         ("robot-check", &["robot", "check", "arm.urdf", "--json"][..]),
         ("log-info", &["log", "info", "run_0.csv", "--robot", "arm.urdf", "--json"]),
         ("effects", &["effects", "--json"]),
+        ("effect", &["explain", "FR02", "--json"]),
         ("export", &["export", "out", "--to", "mjcf,urdf", "--log", "run_1.csv", "--json"]),
+        ("robot-init", &["robot", "init", "arm.urdf", "--out", "mine", "--json"]),
+        ("simulation", &["simulate", "mine/scenario.toml", "--json"]),
+        ("comparison", &COMPARE),
+        ("design", &[&DESIGN[..], &TOLD_APART].concat()),
+        ("design", &[&DESIGN[..], &ALIKE].concat()),
     ] {
-        let printed = serde_json::from_str(&run(folder.path(), arguments).out).unwrap();
-        assert_eq!(wrong(&validator(&closed(schema(name))), &printed), [""; 0], "{name}");
+        let answer = run(folder.path(), arguments);
+        let printed: Value = serde_json::from_str(&answer.out).unwrap();
+        let of_printed = validator(&closed(schema(name)));
+        assert_eq!(wrong(&of_printed, &printed), [""; 0], "{name}");
+        for bad in with_wrong_keys(&printed) {
+            assert_ne!(wrong(&of_printed, &bad), [""; 0], "{name}: {bad}");
+        }
     }
 }
 

@@ -34,7 +34,7 @@ pub use crate::diagnosis::report::Report;
 pub use crate::diagnosis::residual::{LengthScale, ResidualJointRow, ResidualModel};
 pub use crate::diagnosis::tables::sizes;
 pub use crate::diagnosis::text::text;
-pub use change::json::change_json;
+pub use change::json::{change_json, change_schema};
 pub use change::page::{change_page, change_sentence, sizes_before};
 pub use learning::comparison::{ComparedJoint, DataSet, KernelRow, LearningComparison, ModelRow};
 pub use pages::{

@@ -21,6 +21,9 @@ const WIDTH: usize = 79;
 /// Name and version of the schema of what `--json` prints of all effects.
 const SCHEMA: &str = "plumbline.effects/1";
 
+/// The same of one effect.
+const SCHEMA_OF_ONE: &str = "plumbline.effect/1";
+
 /// Arguments of `explain`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
@@ -58,6 +61,11 @@ pub fn schema() -> Schema {
     report::written_schema::<Effects>(SCHEMA, "Plumbline effects")
 }
 
+/// The JSON schema of what `--json` prints of one effect.
+pub fn schema_of_one() -> Schema {
+    report::written_schema::<Effect>(SCHEMA_OF_ONE, "Plumbline effect")
+}
+
 /// What `--json` prints of all effects.
 #[derive(Serialize, JsonSchema)]
 struct Effects {
@@ -66,30 +74,42 @@ struct Effects {
 }
 
 /// What `--json` prints of one effect.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Effect {
     schema: &'static str,
+    /// Its code, such as `FR02`.
     code: &'static str,
+    /// Its name, such as `coulomb_friction`.
     name: &'static str,
     family: Family,
+    /// What it is, in a few words.
     summary: &'static str,
+    /// What it adds to the torque.
     equation: &'static str,
     /// Each by its name, with its unit and range.
     parameters: BTreeMap<&'static str, String>,
+    /// Its signature in a log.
     signature: &'static str,
+    /// What a log must contain to reveal it.
     needs: &'static str,
+    /// Names of the effects that can produce the same torque.
     confused_with: Vec<&'static str>,
+    /// The motion that distinguishes it from those.
     told_apart_by: &'static str,
+    /// Whether a diagnosis names it.
     diagnosed: bool,
+    /// Whether a scenario can have it.
     simulated: bool,
+    /// Whether the extended model compensates it.
     compensated: bool,
+    /// Where the model comes from.
     source: &'static str,
 }
 
 impl Effect {
     fn new(entry: &EffectEntry) -> Self {
         Self {
-            schema: "plumbline.effect/1",
+            schema: SCHEMA_OF_ONE,
             code: entry.kind.code(),
             name: entry.kind.name(),
             family: entry.kind.family(),

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 
 use document::Document;
 use robot::Loaded;
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 use simulator::scenario::Scenario;
 
@@ -25,6 +26,9 @@ const RATE_HZ: f64 = 500.0;
 
 /// Length of the trial (s): an arm that runs away does so in its first seconds.
 const TRIAL_S: f64 = 4.0;
+
+/// Name and version of the schema of what `--json` prints.
+const SCHEMA: &str = "plumbline.robot_init/1";
 
 /// Arguments of `robot init`.
 #[derive(Debug, clap::Args)]
@@ -45,22 +49,32 @@ pub struct Arguments {
     pub json: bool,
 }
 
+/// The JSON schema of what `--json` prints.
+pub fn schema() -> Schema {
+    report::written_schema::<Begun<'static>>(SCHEMA, "Plumbline robot init")
+}
+
 /// What was guessed and written, as `--json` prints it.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Begun<'a> {
     schema: &'static str,
-    /// The files that were written.
+    /// The robot.toml that was written.
     robot: String,
+    /// The scenario that was written.
     scenario: String,
+    /// What is guessed, one entry a joint, in the order of the robot.
     joints: Vec<Guess<'a>>,
 }
 
 /// What is guessed of a joint.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Guess<'a> {
     name: &'a str,
+    /// Inertia of the rotor, reflected to the joint.
     rotor_inertia_kg_m2: f64,
+    /// Gain of the position.
     kp_nm_per_rad: f64,
+    /// Gain of the velocity.
     kd_nm_s_per_rad: f64,
 }
 
@@ -142,7 +156,7 @@ impl<'a> Begun<'a> {
             kd_nm_s_per_rad: drive.gain.kd,
         };
         Self {
-            schema: "plumbline.robot_init/1",
+            schema: SCHEMA,
             robot: at("robot.toml"),
             scenario: at("scenario.toml"),
             joints: loaded.robot.joint_names().zip(drives).map(guess).collect(),

@@ -7,7 +7,8 @@ use report::{LearningComparison, ReplayReport, RunReport, TrackingComparison};
 use schemars::{Schema, json_schema, schema_for};
 use simulator::scenario::ScenarioSpec;
 
-use crate::commands::{explain, export, log_info, robot_check};
+use crate::commands::design::motion_design::DesignSummary;
+use crate::commands::{explain, export, log_info, robot_check, robot_init, simulate};
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::output::{print, print_json, table};
@@ -38,8 +39,14 @@ pub enum FileKind {
     TrackingScenario,
     /// diagnosis.json
     Diagnosis,
+    /// comparison.json of compare
+    Comparison,
+    /// design --json
+    Design,
     /// metrics.json of run
     Run,
+    /// simulate --json
+    Simulation,
     /// What simulate has put in, which it writes apart from the logs
     Truth,
     /// replay.json
@@ -52,10 +59,14 @@ pub enum FileKind {
     Export,
     /// robot check --json
     RobotCheck,
+    /// robot init --json
+    RobotInit,
     /// log info --json
     LogInfo,
     /// effects --json
     Effects,
+    /// explain EFFECT --json
+    Effect,
 }
 
 impl FileKind {
@@ -67,15 +78,20 @@ impl FileKind {
             Self::Scenario => with_extends(schema_for!(ScenarioSpec)),
             Self::TrackingScenario => with_extends(schema_for!(TrackingSpec)),
             Self::Diagnosis => report::diagnosis_schema(),
+            Self::Comparison => report::change_schema(),
+            Self::Design => DesignSummary::schema(),
             Self::Run => RunReport::schema(),
+            Self::Simulation => simulate::schema(),
             Self::Truth => simulator::truth_schema(),
             Self::Replay => ReplayReport::schema(),
             Self::Learning => LearningComparison::schema(),
             Self::Tracking => TrackingComparison::schema(),
             Self::Export => export::schema(),
             Self::RobotCheck => robot_check::schema(),
+            Self::RobotInit => robot_init::schema(),
             Self::LogInfo => log_info::schema(),
             Self::Effects => explain::schema(),
+            Self::Effect => explain::schema_of_one(),
         }
     }
 

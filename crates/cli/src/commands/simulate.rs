@@ -3,6 +3,7 @@ use std::path::{Path, PathBuf};
 use diagnosis::DiagnosisProgress;
 use document::Document;
 use logs::Run;
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 use simulator::LogFormat;
 use simulator::scenario::Scenario;
@@ -12,6 +13,9 @@ use crate::exit_status::ExitStatus;
 use crate::output::{create_folder, display_path, print, print_json, table};
 use crate::path::near;
 use crate::progress::Bar;
+
+/// Name and version of the schema of what `--json` prints.
+const SCHEMA: &str = "plumbline.simulation/1";
 
 /// Arguments of `simulate`.
 #[derive(Debug, clap::Args)]
@@ -39,23 +43,32 @@ pub struct Arguments {
     quiet: bool,
 }
 
+/// The JSON schema of what `--json` prints.
+pub fn schema() -> Schema {
+    report::written_schema::<SimulationSummary>(SCHEMA, "Plumbline simulation")
+}
+
 /// What was written, as `--json` prints it.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct SimulationSummary {
     schema: &'static str,
     /// The file that describes the robot.
     robot: String,
-    /// What was put in.
+    /// The file that says what was put in.
     truth: String,
+    /// The runs, in the order of the scenario.
     runs: Vec<SimulatedRun>,
 }
 
 /// The log of a run.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct SimulatedRun {
     name: String,
+    /// Samples of its log.
     rows: usize,
+    /// From its first sample to its last.
     duration_s: f64,
+    /// The file of its log.
     log: String,
 }
 
@@ -112,7 +125,7 @@ fn summary(arguments: &Arguments, scenario: &Scenario, runs: &[Run]) -> Simulati
         log: display_path(&arguments.log(&run.name)),
     });
     SimulationSummary {
-        schema: "plumbline.simulation/1",
+        schema: SCHEMA,
         robot: display_path(&near(scenario.robot_file())),
         truth: display_path(&arguments.out.join("truth.json")),
         runs: runs.collect(),

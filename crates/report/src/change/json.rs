@@ -1,17 +1,21 @@
 use diagnosis::{Comparison, EffectAt, Estimate};
-use pages::{Provenance, ReportError, with_schema};
+use pages::{Provenance, ReportError, to_json, written_schema};
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 
 use crate::change::page::change_sentence;
-use crate::diagnosis::json::{FindingByName, by_name};
+use crate::diagnosis::json::{FindingByName, Value, by_name};
 
 /// Name and version of the schema of `comparison.json`.
 const SCHEMA: &str = "plumbline.comparison/1";
 
 /// What changed, as it is written.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Document<'a> {
+    schema: &'static str,
+    /// Name of the robot.
     robot: &'a str,
+    /// What changed, in a sentence.
     sentence: String,
     /// The changes; what is nominal in them is the size before.
     changes: Vec<FindingByName<'a>>,
@@ -21,22 +25,29 @@ struct Document<'a> {
     alike: Vec<FindingByName<'a>>,
     /// What the first logs show, held where nothing above is said of it.
     held: Vec<FindingByName<'a>>,
+    /// Doubts about the input, each in a sentence.
     warnings: Vec<&'a String>,
+    /// Where the two diagnoses come from.
     provenance: Sides<'a>,
 }
 
 /// Where the two diagnoses come from.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Sides<'a> {
+    /// The first logs, about the given robot.
     before: &'a Provenance,
+    /// The other logs, about the robot that the first ones extend.
     after: &'a Provenance,
 }
 
-#[derive(Serialize)]
+/// The parameters of an effect in the first logs.
+#[derive(Serialize, JsonSchema)]
 struct SizeByName<'a> {
     #[serde(flatten)]
     at: &'a EffectAt,
+    /// Its parameters by name.
     #[serde(serialize_with = "by_name")]
+    #[schemars(with = "std::collections::BTreeMap<String, Value<'static>>")]
     parameters: &'a [Estimate],
 }
 
@@ -55,6 +66,7 @@ pub fn change_json(
     let [first, other] = [&comparison.before, &comparison.after].map(|side| &side.diagnosis);
     let sizes = comparison.first.iter();
     let document = Document {
+        schema: SCHEMA,
         robot: &other.robot,
         sentence: change_sentence(comparison),
         changes: other.findings.iter().map(FindingByName::new).collect(),
@@ -66,5 +78,10 @@ pub fn change_json(
         warnings: first.warnings.iter().chain(&other.warnings).collect(),
         provenance: Sides { before, after },
     };
-    with_schema(SCHEMA, &document)
+    to_json(&document)
+}
+
+/// The JSON schema of `comparison.json`.
+pub fn change_schema() -> Schema {
+    written_schema::<Document<'static>>(SCHEMA, "Plumbline comparison")
 }

@@ -136,7 +136,7 @@ impl<'a> FindingByName<'a> {
 
 /// What stands under the name of a parameter.
 #[derive(Serialize, JsonSchema)]
-struct Value<'a> {
+pub(crate) struct Value<'a> {
     /// Best value.
     value: f64,
     /// 95 per cent interval, including the uncertainty from unnamed effects.

@@ -7,6 +7,7 @@ use logs::{Channels, Prepared, Run};
 use motion::{MotionSpec, State};
 use next_motion::{DesignedMotion, ExcitationDesign, Goal, Prospect, SEPARATING_NATS};
 use robot::Robot;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::cause;
@@ -155,13 +156,18 @@ impl MotionFiles<'_> {
 }
 
 /// Where a joint goes, how fast, and with how much effort: rad or m, per second, N m or N.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub struct JointMotion {
     name: String,
+    /// Its first position (rad or m).
     starts_at: f64,
+    /// Its lowest position (rad or m).
     lowest: f64,
+    /// Its highest position (rad or m).
     highest: f64,
+    /// Its highest speed (rad/s or m/s).
     fastest: f64,
+    /// The largest effort to expect (N m or N).
     most_effort: f64,
 }
 

@@ -3,6 +3,7 @@ use std::path::Path;
 use logs::{PrepareSettings, Prepared, Run, centre_commands, prepare};
 use next_motion::{DesignSettings, DesignedMotion, ExcitationDesign, Goal, Prospect, Question};
 use robot::{Loaded, Robot};
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 
 use super::cause;
@@ -14,6 +15,9 @@ use crate::output::display_path;
 
 /// Rate of a motion where neither log nor robot says one (Hz).
 const RATE_HZ: f64 = 500.0;
+
+/// Name and version of the schema of what `--json` prints.
+const SCHEMA: &str = "plumbline.design/1";
 
 /// What a motion is searched for.
 pub struct MotionRequest<'a> {
@@ -36,7 +40,7 @@ pub struct MotionDesign {
 }
 
 /// What `design --json` prints.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub struct DesignSummary {
     schema: &'static str,
     /// What is to be settled; none where nothing is open.
@@ -45,8 +49,10 @@ pub struct DesignSummary {
     motion: Option<MotionSummary>,
 }
 
-#[derive(Serialize)]
+/// What is to be settled, and what the motion is worth for it.
+#[derive(Serialize, JsonSchema)]
 struct GoalSummary {
+    /// It in words.
     goal: String,
     /// Log evidence of the logs at hand (nats).
     logs_nats: f64,
@@ -56,19 +62,30 @@ struct GoalSummary {
     runs: Option<usize>,
 }
 
-#[derive(Serialize)]
+/// The motion that was written.
+#[derive(Serialize, JsonSchema)]
 struct MotionSummary {
     /// The motion as CSV, as Parquet and as a scenario.
     files: [String; 3],
+    /// Its length.
     duration_s: f64,
+    /// Rate of its samples.
     rate_hz: f64,
+    /// One entry a joint, in the order of the robot.
     joints: Vec<JointMotion>,
+}
+
+impl DesignSummary {
+    /// Its JSON schema.
+    pub fn schema() -> Schema {
+        report::written_schema::<Self>(SCHEMA, "Plumbline design")
+    }
 }
 
 impl Default for DesignSummary {
     /// Nothing is open.
     fn default() -> Self {
-        Self { schema: "plumbline.design/1", goals: Vec::new(), motion: None }
+        Self { schema: SCHEMA, goals: Vec::new(), motion: None }
     }
 }
 
