@@ -61,17 +61,66 @@ fn what_changed_is_told_for_programs_with_the_logs_of_both_sides() {
     assert!((number(&level["nominal"]) - 1.5).abs() < 0.02, "{level}");
     let first = &told["in_first_logs"][0]["parameters"]["level"]["value"];
     assert!((number(first) - 1.5).abs() < 0.02, "{told}");
-    for (side, logs) in
-        [("before", ["run_0", "run_1", "run_2"]), ("after", ["run_3", "run_4", "run_5"])]
+    let before = ["../arm.urdf", "../run_0.csv", "../run_1.csv", "../run_2.csv"];
+    let found = ["before/extended.toml", "before/robot.urdf"];
+    let after = ["../run_3.csv", "../run_4.csv", "../run_5.csv"];
+    for (side, expected) in [("before", before.to_vec()), ("after", [&found[..], &after].concat())]
     {
         let files = told["provenance"][side]["files"].as_array().unwrap().iter();
         let paths: Vec<&str> = files.map(|file| file["path"].as_str().unwrap()).collect();
-        let expected = logs.map(|log| format!("../{log}.csv"));
-        assert_eq!(paths[0], "../arm.urdf");
-        assert_eq!(paths[1..], expected, "{side}");
+        assert_eq!(paths, expected, "{side}");
     }
     let written = fs::read_to_string(folder.path().join("out/comparison.json")).unwrap();
     assert_eq!(written, answer.out);
+}
+
+fn read_json(path: &Path) -> Value {
+    serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
+}
+
+/// The other logs are diagnosed about the robot that the first ones extend: what is made of their diagnosis starts there.
+#[test]
+fn the_robot_as_the_first_logs_found_it_is_the_nominal_one_of_the_others() {
+    let folder = folder(2.0);
+    let path = folder.path();
+    assert_eq!(compare(path, &AFTER).code, 1);
+    let again = ["diagnose", "--robot", "out/before/extended.toml", "--no-recording", "--quiet"];
+    let again = run(path, &[&again[..], &["--out", "out/again", "--log"], &AFTER].concat());
+    assert_eq!(again.code, 0, "{}", again.err);
+    let files = |name: &str| {
+        let file = path.join("out").join(name).join("diagnosis.json");
+        read_json(&file)["provenance"]["files"].clone()
+    };
+    assert_eq!(files("after"), files("again"));
+
+    arm::write(path, "held_out.csv", &arm::log(6, Gap::Friction(2.0)));
+    let nominal = |more: &[&str]| {
+        let export = ["export", "out/after", "--to", "urdf", "--log", "held_out.csv", "--json"];
+        let answer = run(path, &[&export[..], more].concat());
+        assert_eq!((answer.code, answer.err.as_str()), (0, ""));
+        let told: Value = serde_json::from_str(&answer.out).unwrap();
+        let model = &told["loss"]["models"][0];
+        let file = model["described_by"].as_str().unwrap().to_owned();
+        (file, model["all_nm"].as_f64().unwrap())
+    };
+    let own = nominal(&[]);
+    assert_eq!(own.0, "out/before/extended.toml");
+    assert_eq!(own, nominal(&["--nominal", "out/before/extended.toml"]));
+    let given = nominal(&["--nominal", "arm.urdf"]).1;
+    assert!(given > 3.0 * own.1, "2.0 N m of friction against 0.5 N m: {given} and {}", own.1);
+
+    let pair = ["--separate", "FR01@elbow", "--from", "FR02@elbow", "--duration-s", "10"];
+    let design = ["design", "--diagnosis", "out/after", "--out", "next"];
+    let design = run(path, &[&design[..], &pair].concat());
+    assert_eq!((design.code, design.err.contains("changed since")), (0, false), "{}", design.err);
+    let motion = fs::read_to_string(path.join("next/motion.toml")).unwrap();
+    assert!(motion.contains("/out/before/extended.toml\"\n"), "{motion}");
+
+    // The page of both names what both read.
+    let page = fs::read_to_string(path.join("out/report.html")).unwrap();
+    for file in ["arm.urdf", "run_0.csv", "run_5.csv"] {
+        assert!(page.contains(file), "{file}");
+    }
 }
 
 #[test]

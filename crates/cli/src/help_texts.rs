@@ -96,8 +96,8 @@ pub const COMPARE: &[HelpPart] = &[
             ("before/", "the diagnosis of the first logs"),
             (
                 "after/",
-                "the diagnosis of the other logs, of the robot as the first logs found it: its findings are the \
-                 changes, and \"was\" is the size before",
+                "the diagnosis of the other logs, of the robot as the first logs found it (before/extended.toml): its \
+                 findings are the changes, and \"was\" is the size before",
             ),
         ],
     ),

@@ -1,6 +1,6 @@
 use std::path::{Path, PathBuf};
 
-use diagnosis::{Comparison, Finding};
+use diagnosis::{Comparison, DiagnosisRun, Finding};
 use logs::Run;
 use report::{Provenance, Report};
 use robot::Loaded;
@@ -10,7 +10,7 @@ use crate::columns::LogArguments;
 use crate::diagnosed_input::{options_of, provenance_in};
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
-use crate::input::{RobotArguments, SearchArguments, hashes_of};
+use crate::input::{RobotArguments, SearchArguments, hashes_of, provenance};
 use crate::input_warnings::input_warnings;
 use crate::messages::warn;
 use crate::output::{display_path, keep_inputs, print_answer, refuse_file};
@@ -85,39 +85,57 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
 }
 
 /// Writes the diagnosis of each set of logs into a folder of its own, and what changed; returns its JSON.
+///
+/// The other logs are diagnosed about the robot that the first ones extend: `extended.toml` in the folder of the first
+/// is the robot that their diagnosis names.
 fn write(
     arguments: &Arguments,
     loaded: &Loaded,
     runs: &[Vec<Run>; 2],
     comparison: &Comparison,
 ) -> Result<String, CliError> {
-    let about = Loaded { robot: comparison.before.extended.clone(), ..loaded.clone() };
-    let input = options_of(&arguments.robot.part, &arguments.reading);
-    let [before, after] = SIDES;
-    let sides = [(before, loaded, &comparison.before), (after, &about, &comparison.after)];
-    let origin = |loaded, runs| -> Result<Provenance, CliError> {
-        let mut provenance = arguments.robot.provenance(loaded, arguments.reading.map_file())?;
+    let out = &arguments.out;
+    let [before, after] = SIDES.map(|side| out.join(side));
+    let map = arguments.reading.map_file();
+    let origin = |robot: &Path, loaded: &Loaded, runs: &[Run]| -> Result<Provenance, CliError> {
+        let mut provenance = provenance(robot, loaded, map)?;
         provenance.files.extend(hashes_of(runs));
         Ok(provenance)
     };
-    let origins = [origin(loaded, &runs[0])?, origin(&about, &runs[1])?];
-    let named = origins.each_ref().map(|provenance| provenance_in(&arguments.out, provenance));
+    let given = origin(&arguments.robot.robot, loaded, &runs[0])?;
+    write_side(arguments, &before, loaded, &comparison.before, &given)?;
+    let extended = Loaded {
+        robot: comparison.before.extended.clone(),
+        urdf_path: before.join("robot.urdf"),
+        ..loaded.clone()
+    };
+    let found = origin(&before.join("extended.toml"), &extended, &runs[1])?;
+    write_side(arguments, &after, &extended, &comparison.after, &found)?;
+    let named = [&given, &found].map(|provenance| provenance_in(out, provenance));
     let json = report::change_json(comparison, named.each_ref())?;
-    for ((name, loaded, outcome), provenance) in sides.into_iter().zip(&origins) {
-        let descriptions = diagnose::descriptions(loaded, outcome)?;
-        let report = Report {
-            descriptions: &descriptions,
-            input: Some(&input),
-            ..Report::new(outcome, &loaded.robot, provenance)
-        };
-        diagnose::write(&arguments.out.join(name), loaded, outcome, &report, None)?;
-        if name == after {
-            let page = report::change_page(comparison, &report)?;
-            let files = [(PAGE, page.as_bytes()), (JSON, json.as_bytes())];
-            report::write_folder(&arguments.out, &files)?;
-        }
-    }
+    let mut all = given;
+    all.files.extend(hashes_of(&runs[1]));
+    let report = Report::new(&comparison.after, &extended.robot, &all);
+    let page = report::change_page(comparison, &report)?;
+    report::write_folder(out, &[(PAGE, page.as_bytes()), (JSON, json.as_bytes())])?;
     Ok(json)
+}
+
+/// Writes the diagnosis of one set of logs, about the robot `loaded`, into a folder.
+fn write_side(
+    arguments: &Arguments,
+    folder: &Path,
+    loaded: &Loaded,
+    outcome: &DiagnosisRun,
+    provenance: &Provenance,
+) -> Result<(), CliError> {
+    let report = Report {
+        descriptions: &diagnose::descriptions(loaded, outcome)?,
+        input: Some(&options_of(&arguments.robot.part, &arguments.reading)),
+        ..Report::new(outcome, &loaded.robot, provenance)
+    };
+    diagnose::write(folder, loaded, outcome, &report, None)?;
+    Ok(())
 }
 
 /// What changed and what is wrong in both, a line or a few each.
