@@ -47,7 +47,8 @@ pub enum Command {
     /// Searches the motion that tells apart what a diagnosis could not, within the robot's limits
     #[command(after_help = after(help::DESIGN))]
     Design(design::Arguments),
-    /// Writes the robot with its findings as URDF, MJCF, SDF and USD, and says what each leaves out
+    /// Writes the robot with its findings as URDF, MJCF, SDF and USD, and the actuator card of its
+    /// servos (--to actuator); says what each leaves out
     #[command(after_help = after(help::EXPORT))]
     Export(export::Arguments),
     /// Looks at logs: rate, gaps, ranges, noise, time skew

@@ -129,6 +129,10 @@ pub const EXPORT: &[HelpPart] = &[
             ),
             ("extended.sdf", "an SDF for Gazebo"),
             ("extended.usda", "a USD layer of bodies and joints for Isaac Sim"),
+            (
+                "extended_actuator.xml, .py and .json",
+                "the servos for MuJoCo, Isaac Lab and BAM, where robot.toml describes their position loop",
+            ),
         ],
     ),
     Words(
