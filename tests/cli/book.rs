@@ -98,6 +98,11 @@ fn told(page: &Page, block: &str, folder: &Path, path: &str) -> String {
 }
 
 #[test]
+fn an_arm_goes_from_its_urdf_to_an_mjcf() {
+    hold("ten-minutes.md");
+}
+
+#[test]
 fn a_first_log_is_looked_at_and_diagnosed() {
     hold("first-log.md");
 }
@@ -119,7 +124,7 @@ fn a_payload_is_what_changed() {
 
 #[test]
 fn every_page_with_commands_is_held() {
-    let held = ["first-log.md", "ur-arm.md", "hobby-arm.md", "payload.md"];
+    let held = ["ten-minutes.md", "first-log.md", "ur-arm.md", "hobby-arm.md", "payload.md"];
     let with_commands = |page: &Page| blocks(&page.text).iter().any(|block| block.language == "sh");
     let names: Vec<String> = pages().into_iter().filter(with_commands).map(|p| p.name).collect();
     assert_eq!(names, held);
