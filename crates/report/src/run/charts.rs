@@ -2,9 +2,6 @@ use crate::run::rows::{JointNumbers, joint_numbers};
 use crate::run::run_report::RunReport;
 use pages::{Dots, JointDots, LegendKey, Medium, ReportError};
 
-/// Title of the chart of the torque.
-const TORQUE: &str = "error of the torque";
-
 /// A chart of the page, with what it shows.
 pub(crate) struct GainChart {
     pub title: &'static str,
@@ -16,20 +13,18 @@ impl RunReport<'_> {
     /// The numbers before and after, joint by joint, as dots.
     pub(crate) fn charts(&self) -> Result<Vec<GainChart>, ReportError> {
         let numbers = joint_numbers(self.metrics);
-        let floors = &self.diagnosis.noise_floor_nm;
-        let floor = |joint: usize| floors.get(joint).copied().flatten();
         let chart = |title: &'static str, axis: &'static str, of: fn(&JointNumbers) -> [f64; 2]| {
-            let joints = self.metrics.joints.iter().zip(&numbers).enumerate();
+            let joints = self.metrics.joints.iter().zip(&numbers);
             let dots = Dots {
                 title: format!("{}: {title}", self.metrics.robot),
                 subtitle: String::new(),
                 axis,
                 keys: LegendKey::of_models(["nominal", "extended"].into_iter()),
                 joints: joints
-                    .map(|(j, (name, numbers))| JointDots {
+                    .map(|(name, numbers)| JointDots {
                         name: name.clone(),
                         values: of(numbers).to_vec(),
-                        floor: if title == TORQUE { floor(j) } else { None },
+                        floor: None,
                     })
                     .collect(),
                 mark: None,
@@ -41,11 +36,8 @@ impl RunReport<'_> {
         Ok(vec![
             GainChart {
                 title: "Torque",
-                words: format!(
-                    "Measured minus predicted torque, RMS, on {unseen}. The noise floor is that of \
-                     the logs of the diagnosis."
-                ),
-                svg: chart(TORQUE, "RMS error (N·m or N)", |n| n.torque)?,
+                words: format!("Measured minus predicted torque, RMS, on {unseen}."),
+                svg: chart("error of the torque", "RMS error (N·m or N)", |n| n.torque)?,
             },
             GainChart {
                 title: "Simulation",

@@ -3,7 +3,7 @@ use serde::{Deserialize, Serialize};
 use crate::diagnosis::page::found_sections;
 use crate::diagnosis::report::Report;
 use crate::diagnosis::sentence::{bottom_line, verdict_sentence};
-use crate::diagnosis::tables::{class_of, known_floor};
+use crate::diagnosis::tables::class_of;
 use pages::ReportError;
 
 /// A diagnosis as the report of a run shows it.
@@ -19,9 +19,6 @@ pub struct DiagnosisSummary {
     pub warnings: Vec<String>,
     /// Motions that would separate the findings from their rivals.
     pub motions: Vec<String>,
-    /// RMS of the noise joint by joint (N m or N), where the logs determine it.
-    #[serde(default)]
-    pub noise_floor_nm: Vec<Option<f64>>,
     /// The sections of the diagnosis page that the page of a run shows, as HTML.
     pub sections: String,
 }
@@ -43,7 +40,6 @@ pub fn summarise(report: &Report) -> Result<DiagnosisSummary, ReportError> {
         class: class_of(diagnosis.verdict).to_owned(),
         warnings: diagnosis.warnings.clone(),
         motions,
-        noise_floor_nm: diagnosis.joints.iter().map(known_floor).collect(),
         sections: found_sections(report)?,
     })
 }

@@ -113,6 +113,8 @@ pub struct FirstSeconds {
     pub desired: Vec<Vec<[f64; 2]>>,
     /// Time (s) and measured position (rad), by joint.
     pub measured: Vec<Vec<[f64; 2]>>,
+    /// Time (s) and measured minus desired position (rad), by joint.
+    pub error: Vec<Vec<[f64; 2]>>,
 }
 
 /// The errors at several gains.
@@ -154,7 +156,12 @@ impl FirstSeconds {
             };
             signals.iter().map(points).collect()
         };
-        Self { desired: drawn(desired), measured: drawn(measured) }
+        let error = |(measured, desired): (&&[f64], &&[f64])| -> Vec<f64> {
+            measured.iter().zip(desired.iter()).map(|(q, desired)| q - desired).collect()
+        };
+        let errors: Vec<Vec<f64>> = measured.iter().zip(desired).map(error).collect();
+        let errors: Vec<&[f64]> = errors.iter().map(Vec::as_slice).collect();
+        Self { desired: drawn(desired), measured: drawn(measured), error: drawn(&errors) }
     }
 }
 
@@ -203,6 +210,9 @@ mod tests {
         assert!(desired.len() <= 2 * COLUMNS && desired.contains(&[time[1234], 1.0]));
         assert!(desired.last().is_some_and(|end| (14.9..=15.0).contains(&end[0])));
         assert_eq!(first.measured, [vec![[5.0, 0.0]], vec![]]);
+        let late: Vec<f64> = signal.iter().map(|q| q - 0.25).collect();
+        let error = FirstSeconds::of(&time, &[&signal], &[&late]).error;
+        assert!(!error[0].is_empty() && error[0].iter().all(|[_, error]| *error == -0.25));
         assert_eq!(FirstSeconds::of(&[], &[&[]], &[]).desired, [Vec::<[f64; 2]>::new()]);
     }
 }

@@ -41,7 +41,7 @@ impl TrackingComparison {
         self.draw_motion(joints, Medium::Alone)
     }
 
-    /// The same of the three joints with the largest errors, for a page of the program's own.
+    /// The errors of the three joints with the largest ones over the same time, for a page of the program's own.
     ///
     /// # Errors
     ///
@@ -62,15 +62,20 @@ impl TrackingComparison {
         medium: Medium,
     ) -> Result<String, ReportError> {
         let known = joints.iter().copied().filter(|&joint| joint < self.joints.len());
-        let charts = known.map(|joint| self.motion_of(joint)).filter(|chart| !chart.is_empty());
-        let desired = LegendKey { name: "desired".to_owned(), ink: Ink::Role(Role::Desired) };
-        let keys: Vec<LegendKey> = std::iter::once(desired).chain(self.keys()).collect();
+        let drawn = |of: fn(&Self, usize) -> Chart| {
+            known.map(move |joint| of(self, joint)).filter(|chart| !chart.is_empty())
+        };
         match medium {
             Medium::Page => {
-                let panels = charts.map(|chart| chart.in_page()).collect::<Result<_, _>>()?;
-                render_html(&InPage { keys, panels })
+                let panels = drawn(Self::error_of).map(|chart| chart.in_page());
+                let panels = panels.collect::<Result<_, _>>()?;
+                render_html(&InPage { keys: self.keys(), panels })
             }
             Medium::Alone => {
+                let charts = drawn(Self::motion_of);
+                let desired =
+                    LegendKey { name: "desired".to_owned(), ink: Ink::Role(Role::Desired) };
+                let keys: Vec<LegendKey> = std::iter::once(desired).chain(self.keys()).collect();
                 let title = format!("{}: the first ten seconds", self.robot);
                 let sheet = FigureSheet::new(&title, &self.circumstances(), keys, medium);
                 let top = |row: usize| sheet.bottom() + ABOVE + PANEL * row as f64;
@@ -82,6 +87,26 @@ impl TrackingComparison {
                 let bottom = top(panels.len());
                 render_html(&Alone { sheet: sheet.down_to(bottom + ABOVE), panels })
             }
+        }
+    }
+
+    /// Measured minus desired position of one joint over the first ten seconds, in thousandths of its unit.
+    fn error_of(&self, joint: usize) -> Chart {
+        let models = self.models.iter().zip(self.inks()).map(|(model, ink)| {
+            let errors = model.first_seconds.error.get(joint).into_iter().flatten();
+            let points = errors.map(|[time_s, error]| [*time_s, 1e3 * error]).collect();
+            Series { name: model.name.clone(), ink, shape: CurveShape::Line(points) }
+        });
+        let (name, unit) = self.joints.get(joint).map_or(("", "mrad"), |joint| {
+            (joint.name.as_str(), if joint.position_unit() == "m" { "mm" } else { "mrad" })
+        });
+        Chart {
+            title: format!("Tracking error of {name} over the first ten seconds"),
+            x: Axis::new("time", "s"),
+            y: Axis::new(name, unit),
+            series: models.collect(),
+            floor: None,
+            size: (1000.0, 140.0),
         }
     }
 
@@ -142,6 +167,20 @@ mod tests {
         let svg = comparison.motion_figure(&[0, 1]).unwrap();
         text_of_xml(&svg);
         assert!(!svg.contains("NaN") && !svg.contains("data-name"));
+    }
+
+    #[test]
+    fn a_page_shows_the_errors_of_the_motion_in_thousandths() {
+        let mut comparison = sample::comparison();
+        for model in &mut comparison.models {
+            let half = |at: f64| vec![[0.0, 0.0], [1.0, at]];
+            model.first_seconds.error = vec![half(0.25), half(0.5)];
+        }
+        let page = comparison.motion_in_page().unwrap();
+        for expected in ["shoulder (mrad)", "slide (mm)", "250", "500"] {
+            assert!(page.contains(expected), "{expected} is missing in {page}");
+        }
+        assert!(!page.contains("desired"));
     }
 
     #[test]
