@@ -29,6 +29,7 @@ mod output;
 mod path;
 mod progress;
 mod quiet;
+mod schema_text;
 mod watch;
 
 use std::ffi::OsString;

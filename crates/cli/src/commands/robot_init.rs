@@ -13,13 +13,13 @@ use simulator::scenario::Scenario;
 
 use self::excitation::Excitation;
 use self::guess::{DriveGuess, drives};
-use crate::commands::schema::FileKind;
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::input::PartArguments;
 use crate::messages::warn;
 use crate::output::{create_folder, display_path, print, print_json, table};
 use crate::path::relative_to;
+use crate::schema_text::{scenario_schema, schema_text};
 
 /// Rate of a control loop that the robot does not say (Hz), as the simulator has it.
 const RATE_HZ: f64 = 500.0;
@@ -124,7 +124,8 @@ pub fn write(arguments: &Arguments) -> Result<InitialisedRobot, CliError> {
     let model = relative_to(&arguments.out, &loaded.urdf_path);
     let described = text::robot_toml(&loaded, &model, &drives, rate_hz);
     let scenario = text::scenario_toml(&driven, &excitation);
-    let [of_robot, of_scenario] = [FileKind::Robot.text()?, FileKind::Scenario.text()?];
+    let [of_robot, of_scenario] =
+        [schema_text(&robot::description_schema())?, schema_text(&scenario_schema())?];
     let files = [
         ("robot.toml", described.as_bytes()),
         ("scenario.toml", scenario.as_bytes()),

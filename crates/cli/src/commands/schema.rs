@@ -4,14 +4,14 @@ use clap::ValueEnum;
 use experiment::TrackingSpec;
 use logs::ColumnMap;
 use report::{LearningComparison, ReplayReport, RunReport, TrackingComparison};
-use schemars::{Schema, json_schema, schema_for};
-use simulator::scenario::ScenarioSpec;
+use schemars::{Schema, schema_for};
 
 use crate::commands::design::motion_design::DesignSummary;
 use crate::commands::{explain, export, log_info, robot_check, robot_init, simulate};
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::output::{print, print_json, table};
+use crate::schema_text::{scenario_schema, schema_text, with_extends};
 
 /// Arguments of `schema`.
 #[derive(Debug, clap::Args)]
@@ -75,7 +75,7 @@ impl FileKind {
         match self {
             Self::Robot => robot::description_schema(),
             Self::Map => ColumnMap::schema(),
-            Self::Scenario => with_extends(schema_for!(ScenarioSpec)),
+            Self::Scenario => scenario_schema(),
             Self::TrackingScenario => with_extends(schema_for!(TrackingSpec)),
             Self::Diagnosis => report::diagnosis_schema(),
             Self::Comparison => report::change_schema(),
@@ -101,8 +101,7 @@ impl FileKind {
     ///
     /// [`CliError::Output`].
     pub fn text(self) -> Result<String, CliError> {
-        let text = serde_json::to_string_pretty(&self.schema()).map_err(std::io::Error::from)?;
-        Ok(text + "\n")
+        schema_text(&self.schema())
     }
 }
 
@@ -136,20 +135,4 @@ fn list() -> String {
 /// [`CliError::Output`].
 pub fn print_schema(schema: Schema) -> Result<(), CliError> {
     print_json(&with_extends(schema))
-}
-
-/// The schema of one file, which may extend others and leave to them what it needs.
-fn with_extends(mut schema: Schema) -> Schema {
-    schema.remove("required");
-    let file = json_schema!({ "type": "string" });
-    let extends = json_schema!({
-        "description": "A file that this one extends, or several of which later ones count more, \
-                        relative to this file. Tables are merged key by key, anything else is \
-                        replaced, lists of tables as a whole.",
-        "anyOf": [file, { "type": "array", "items": file }]
-    });
-    if let Some(properties) = schema.get_mut("properties").and_then(|p| p.as_object_mut()) {
-        properties.insert("extends".to_owned(), extends.into());
-    }
-    schema
 }

@@ -4,7 +4,7 @@ use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 
 use crate::change::page::change_sentence;
-use crate::diagnosis::json::{FindingByName, Value, by_name};
+use crate::diagnosis::json::{FindingByName, ParameterValue, by_name};
 
 /// Name and version of the schema of `comparison.json`.
 const SCHEMA: &str = "plumbline.comparison/1";
@@ -47,7 +47,7 @@ struct SizeByName<'a> {
     at: &'a EffectAt,
     /// Its parameters by name.
     #[serde(serialize_with = "by_name")]
-    #[schemars(with = "std::collections::BTreeMap<String, Value<'static>>")]
+    #[schemars(with = "std::collections::BTreeMap<String, ParameterValue<'static>>")]
     parameters: &'a [Estimate],
 }
 

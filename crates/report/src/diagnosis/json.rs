@@ -77,7 +77,7 @@ pub(crate) struct FindingByName<'a> {
     at: &'a EffectAt,
     /// Its parameters by name.
     #[serde(serialize_with = "by_name")]
-    #[schemars(with = "std::collections::BTreeMap<String, Value<'static>>")]
+    #[schemars(with = "std::collections::BTreeMap<String, ParameterValue<'static>>")]
     parameters: &'a [Estimate],
     /// Share of the nominal residual's power that the finding explains.
     share_explained: f64,
@@ -136,7 +136,7 @@ impl<'a> FindingByName<'a> {
 
 /// What stands under the name of a parameter.
 #[derive(Serialize, JsonSchema)]
-pub(crate) struct Value<'a> {
+pub(crate) struct ParameterValue<'a> {
     /// Best value.
     value: f64,
     /// 95 per cent interval, including the uncertainty from unnamed effects.
@@ -158,7 +158,7 @@ pub(crate) fn by_name<S: Serializer>(
 ) -> Result<S::Ok, S::Error> {
     serializer.collect_map(parameters.iter().map(|p| {
         let &Estimate { name, value, ci95, noise95, nominal, unit, determined } = p;
-        (name, Value { value, ci95, noise95, nominal, unit, determined })
+        (name, ParameterValue { value, ci95, noise95, nominal, unit, determined })
     }))
 }
 
