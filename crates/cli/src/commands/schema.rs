@@ -63,7 +63,7 @@ pub enum FileKind {
     RobotInit,
     /// log info --json
     LogInfo,
-    /// effects --json
+    /// explain --json
     Effects,
     /// explain EFFECT --json
     Effect,
