@@ -2,7 +2,6 @@
 //! installed this test says so.
 
 use std::path::Path;
-use std::process::Command;
 
 use checks::arms::workspace_root;
 use diagnosis::{Settings, Silent, diagnose};
@@ -12,7 +11,7 @@ use logs::{Channel, ReadOptions, Run, read_run, write_parquet};
 use robot::{Loaded, PdGain, Robot, TorqueSource};
 use simulator::scenario::Scenario;
 
-use crate::python::ask;
+use crate::python::{ask, has_mujoco};
 
 /// Gains of robots/so101/robot.toml, with which the arm is simulated.
 const KP: [f64; 6] = [20.0, 43.0, 22.0, 10.0, 10.0, 10.0];
@@ -138,12 +137,7 @@ fn followed(robot: &Loaded, goals: &[Vec<f64>], [q, qd]: &[Vec<f64>; 2]) -> Vec<
 
 #[test]
 fn oracle_position_actuators_of_mujoco_follow_the_goals_of_a_held_out_log() {
-    if !Command::new("python3")
-        .args(["-c", "import mujoco"])
-        .output()
-        .is_ok_and(|o| o.status.success())
-    {
-        println!("skipped: python3 has no mujoco, pip install mujoco brings it");
+    if !has_mujoco() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();

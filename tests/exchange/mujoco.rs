@@ -1,12 +1,10 @@
 //! MuJoCo loads the MJCF and needs the same torque; where it is not installed these tests say so.
 
-use std::process::Command;
-
 use checks::arms::workspace_root;
 use exchange::{Format, export};
 use robot::{Loaded, Robot};
 
-use crate::python::ask;
+use crate::python::{ask, has_mujoco};
 use crate::rich::{DRIVES, State, states, torque, urdf, wam_with};
 
 /// Largest difference of a torque over the largest torque: a constant torque is a spring of
@@ -33,9 +31,7 @@ json.dump(answer, sys.stdout)
 ";
 
 pub fn mujoco(model: &str, joints: &[&str], states: &[State]) -> Option<Vec<Vec<f64>>> {
-    let found = Command::new("python3").args(["-c", "import mujoco"]).output();
-    if !found.is_ok_and(|output| output.status.success()) {
-        println!("skipped: python3 has no mujoco, pip install mujoco brings it");
+    if !has_mujoco() {
         return None;
     }
     let question = serde_json::json!({ "model": model, "joints": joints, "states": states });

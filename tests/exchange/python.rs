@@ -3,6 +3,16 @@
 use std::io::Write;
 use std::process::{Command, Stdio};
 
+/// Whether Python has MuJoCo; says that a test is skipped where it does not.
+pub fn has_mujoco() -> bool {
+    let found = Command::new("python3").args(["-c", "import mujoco"]).output();
+    let has = found.is_ok_and(|output| output.status.success());
+    if !has {
+        println!("skipped: python3 has no mujoco, pip install mujoco brings it");
+    }
+    has
+}
+
 /// What `script` prints for a question; `refusal` is said where it fails.
 pub fn ask(script: &str, question: &serde_json::Value, refusal: &str) -> String {
     let mut python = Command::new("python3")

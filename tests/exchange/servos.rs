@@ -8,7 +8,7 @@ use robot::{Loaded, Robot};
 use serde_json::Value;
 
 use crate::mujoco::mujoco;
-use crate::python::ask;
+use crate::python::{ask, has_mujoco};
 use crate::rich::{State, torque};
 
 const LINK: &str = r#"<inertial><origin xyz="0.1 0 0"/><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.02"/></inertial>"#;
@@ -332,12 +332,7 @@ fn oracle_an_actuator_of_mujoco_has_the_torque_of_the_loop() {
     );
     let text = written(&keys, Format::Mjcf).text;
     assert!(text.contains("<general name=\"elbow\""), "{text}");
-    if !Command::new("python3")
-        .args(["-c", "import mujoco"])
-        .output()
-        .is_ok_and(|o| o.status.success())
-    {
-        println!("skipped: python3 has no mujoco, pip install mujoco brings it");
+    if !has_mujoco() {
         return;
     }
     const SCRIPT: &str = "
