@@ -1,6 +1,6 @@
 //! What changed between two sets of logs, of an arm whose description is wrong in both.
 
-use checks::synthetic::wam;
+use checks::synthetic::{Noise, wam};
 use diagnosis::{Comparison, DiagnosisError, Settings, Silent, compare};
 use rayon::prelude::*;
 
@@ -56,4 +56,30 @@ fn a_run_is_not_compared_with_itself() {
     let answer = compare(&wam(), [&log, &log[..1]], &Settings::default(), &Silent);
     let expected = DiagnosisError::InBoth { run: log[0].name.clone() };
     assert_eq!(answer.map(|_| ()), Err(expected));
+}
+
+/// Dry friction that grows by a quarter, on an arm of which a coarse velocity puts a fifth of the samples near rest: there
+/// friction may have any value up to its level, but not while the joint slides.
+#[test]
+fn a_growth_of_friction_by_a_quarter_is_named() {
+    let before = World::nominal().torque(1, |[_, qd, _]| 2.0 * sign(qd));
+    let after = World::nominal().torque(1, |[_, qd, _]| 2.5 * sign(qd));
+    let noise = Noise { velocity: 0.03, ..Noise::of_a_wam() };
+    let wrong: Vec<String> = SEEDS
+        .into_par_iter()
+        .filter_map(|seed| {
+            let log = |world: &World, seed| world.paced(&[0.4; 3], 20.0, &noise, seed);
+            let logs = [log(&before, seed), log(&after, 1000 + seed)];
+            let logs = logs.each_ref().map(Vec::as_slice);
+            let answer = compare(&wam(), logs, &Settings::default(), &Silent).unwrap();
+            let diagnosis = &answer.after.diagnosis;
+            let found = finding(diagnosis, "FR02 Coulomb friction at j2_shoulder_pitch");
+            let is_right = found.is_some_and(|found| {
+                let level = &found.parameters[0];
+                (level.nominal - 2.0).abs() < 0.1 && (level.value - 2.5).abs() < 0.1
+            });
+            (!is_right || named(diagnosis).len() > 1).then(|| format!("{:?}", named(diagnosis)))
+        })
+        .collect();
+    assert!(wrong.is_empty(), "{wrong:?}");
 }

@@ -15,7 +15,7 @@ use diagnosis::{Diagnosis, Settings, Silent, diagnose};
 use document::Document;
 use logs::{Channels, ReadOptions, Run, read_run, recognise};
 use mcap::records::MessageHeader;
-use robot::{Loaded, Robot};
+use robot::{Loaded, Robot, TorqueSource};
 use simulator::scenario::Scenario;
 use zip::write::SimpleFileOptions;
 
@@ -284,10 +284,15 @@ fn read_back(folder: &Path, runs: &[Run], robot: &Robot) -> Vec<(&'static str, V
     all
 }
 
+/// The efforts of scenarios/arms are commands, which the controller holds for one period.
 fn diagnosed(loaded: &Loaded, runs: &[Run]) -> Diagnosis {
     let control_rate_hz = loaded.control.rate_hz;
     let settings = Settings { control_rate_hz, ..Settings::default() };
-    diagnose(&loaded.robot, runs, &settings, &Silent).unwrap().diagnosis
+    let mut robot = loaded.robot.clone();
+    for j in 0..robot.joint_count() {
+        robot.link_mut(j).unwrap().actuator.torque_source = TorqueSource::Commanded;
+    }
+    diagnose(&robot, runs, &settings, &Silent).unwrap().diagnosis
 }
 
 #[test]

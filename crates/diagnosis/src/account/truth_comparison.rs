@@ -113,7 +113,8 @@ impl Inputs<'_> {
             let is_known = *weight > 0.0 && *known > 0.0;
             if is_known { 2.0 / (REGRESSION_RATE * known * known) } else { *weight }
         };
-        let weights: Vec<f64> = noise.iter().zip(&problem.weight).map(weight).collect();
+        let by_stratum = noise.iter().flat_map(|known| [known; 2]);
+        let weights: Vec<f64> = by_stratum.zip(&problem.weight).map(weight).collect();
         let is_known = noise.iter().any(|known| *known > 0.0);
         is_known.then(|| problem.with_weights(weights))
     }

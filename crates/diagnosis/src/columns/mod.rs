@@ -13,3 +13,4 @@ pub(crate) mod readings;
 pub(crate) mod repeats;
 pub(crate) mod run_design;
 pub(crate) mod shapes;
+pub(crate) mod stratum;

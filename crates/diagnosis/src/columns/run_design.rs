@@ -1,6 +1,7 @@
 use nalgebra::DMatrix;
 
 use crate::columns::readings::Readings;
+use crate::columns::stratum::Stratum;
 
 /// One run of a [`crate::columns::design::Design`].
 #[derive(Debug, Clone)]
@@ -32,8 +33,7 @@ pub(crate) struct JointDesign {
     /// Whether a sample is informative about the effort: most of the signal that the low-pass mixes into it comes
     /// from the moving joint. While the joint stands, dry friction holds it with any part of its level.
     pub is_informative: Vec<bool>,
-    /// Whether the joint slides. Where its direction changes, dry friction has any value up to its level, which no
-    /// model can predict.
+    /// Whether the joint slides. Near rest dry friction has any value up to its level, which no model can predict.
     pub slides: Vec<bool>,
 }
 
@@ -65,6 +65,18 @@ impl JointDesign {
         signal: impl IntoIterator<Item = T> + 'a,
     ) -> impl Iterator<Item = T> + 'a {
         signal.into_iter().zip(&self.is_informative).filter(|(_, is)| **is).map(|(value, _)| value)
+    }
+
+    /// The informative samples of a signal in which the joint slides.
+    pub fn sliding<'a>(&'a self, signal: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        let slides = |(t, _): &(usize, &f64)| self.is_informative[*t] && self.slides[*t];
+        signal.iter().enumerate().filter(slides).map(|(_, value)| *value)
+    }
+
+    /// The stratum of sample `t` of joint `j`, which these signals are of; `None` where it is not informative.
+    pub fn stratum(&self, j: usize, t: usize) -> Option<Stratum> {
+        let of = if self.slides[t] { Stratum::sliding } else { Stratum::near_rest };
+        self.is_informative[t].then(|| of(j))
     }
 
     /// Measured minus nominal effort (N·m or N).

@@ -82,7 +82,8 @@ impl Inputs<'_> {
             samples: independent(&rest),
             noise: noise.rms(j),
             source: self.nominal.links()[j].actuator.torque_source,
-            near_rest: self.near_rest(j),
+            friction: self.friction_error(j),
+            sliding_rms: rms(&self.sliding_part(left, j)),
             keeps_nominal: tested.kept_nominal.has_dropped_at(self.design, j),
             practical: self.settings.open_share,
             structure: structure.share,
@@ -145,6 +146,12 @@ impl Inputs<'_> {
         let of_run = |(left, run): (&Vec<f64>, &RunDesign)| {
             run.joints[j].informative(left.iter().copied()).collect()
         };
+        left.iter().zip(&self.design.runs).map(of_run).collect()
+    }
+
+    /// The samples of a residual in which joint `j` slides, `[run][sample]`.
+    fn sliding_part(&self, left: &[Vec<f64>], j: usize) -> Vec<Vec<f64>> {
+        let of_run = |(left, run): (&Vec<f64>, &RunDesign)| run.joints[j].sliding(left).collect();
         left.iter().zip(&self.design.runs).map(of_run).collect()
     }
 

@@ -119,14 +119,14 @@ impl Inputs<'_> {
     }
 
     /// The joints at which the findings leave more than the noise whose source is known, and described dry friction near
-    /// changes of direction.
+    /// rest.
     fn are_above_noise(&self, named: &InverseGain) -> Vec<bool> {
         let t = self.thresholds();
         let noise = TorqueNoise::new(self.nominal, self.design, self.log.prepared, &t.signals);
         let is_above = |(j, rms): (usize, &f64)| {
             let source = self.nominal.links()[j].actuator.torque_source;
             let factor = t.verdict.noise_factor_of(source);
-            *rms > factor * noise.rms(j).0.hypot(self.near_rest(j))
+            *rms > factor * noise.rms(j).0.hypot(self.friction_error(j).all)
         };
         named.rms_after_nm.iter().enumerate().map(is_above).collect()
     }

@@ -2,6 +2,7 @@ use robot::TorqueSource;
 
 use crate::outcome::size::size;
 use crate::result::{NoiseFloorSource, Verdict};
+use crate::search::friction_error::FrictionError;
 use crate::thresholds::verdict::VerdictThresholds;
 
 /// Whether dry friction too small to be seen may matter. Then the logs say nothing of a joint, however small its
@@ -38,8 +39,10 @@ pub(crate) struct Situation<'a> {
     pub noise: (f64, NoiseFloorSource),
     /// What the effort is.
     pub source: TorqueSource,
-    /// RMS of the described dry friction near changes of direction, which no model can predict (N·m or N).
-    pub near_rest: f64,
+    /// What the law of described dry friction may err by.
+    pub friction: FrictionError,
+    /// Held-out RMS error of the extended model while the joint slides (N·m or N).
+    pub sliding_rms: f64,
     /// Share of the effort below which a residual does not matter.
     pub practical: f64,
     /// Share of the residual's power that is predictable.
@@ -53,25 +56,29 @@ pub(crate) struct Situation<'a> {
 impl Situation<'_> {
     /// Share of the residual's power that exceeds the noise.
     pub fn unexplained_share(&self) -> f64 {
-        let noise = self.floor() / self.remaining_rms.max(f64::MIN_POSITIVE);
-        (1.0 - noise.powi(2)).clamp(0.0, 1.0)
+        let beyond = |[rms, floor]: [f64; 2]| 1.0 - (floor / rms.max(f64::MIN_POSITIVE)).powi(2);
+        self.errors_and_floors().map(beyond).fold(0.0, f64::max).min(1.0)
     }
 
-    /// RMS that no model can predict (N·m or N).
-    fn floor(&self) -> f64 {
-        self.noise.0.hypot(self.near_rest)
+    /// Held-out RMS errors and what no model can predict of them (N·m or N): over all samples, and, where dry friction is
+    /// described, while the joint slides.
+    fn errors_and_floors(&self) -> impl Iterator<Item = [f64; 2]> {
+        let of = |rms, unpredictable| [rms, self.noise.0.hypot(unpredictable)];
+        let FrictionError { all, sliding } = self.friction;
+        let while_sliding = (sliding > 0.0).then(|| of(self.sliding_rms, sliding));
+        std::iter::once(of(self.remaining_rms, all)).chain(while_sliding)
     }
 
-    /// Whether the residual is at most `most` times a floor, plus some standard errors of an RMS.
-    fn is_within(&self, most: f64, floor: f64) -> bool {
+    /// Whether an error is at most `most` times a floor, plus some standard errors of an RMS.
+    fn is_within(&self, most: f64, [rms, floor]: [f64; 2]) -> bool {
         let error = (2.0 * self.samples.max(1.0)).sqrt().recip();
-        self.remaining_rms <= (most + self.thresholds.rms_errors * error) * floor
+        rms <= (most + self.thresholds.rms_errors * error) * floor
     }
 
     /// Whether the residual may be noise.
     fn is_noise(&self) -> bool {
-        let t = self.thresholds;
-        self.is_within(t.noise_factor_of(self.source), self.floor())
+        let most = self.thresholds.noise_factor_of(self.source);
+        self.errors_and_floors().all(|error| self.is_within(most, error))
     }
 
     /// Whether the residual may be noise but is large enough to contain an effect that matters.
@@ -82,7 +89,9 @@ impl Situation<'_> {
     fn is_drowned(&self) -> bool {
         self.is_noise()
             && self.remaining_rms > self.thresholds.drowned * self.torque_rms
-            && (self.own > 0 || !self.is_within(self.thresholds.noise_factor, self.noise.0))
+            && (self.own > 0
+                || !self
+                    .is_within(self.thresholds.noise_factor, [self.remaining_rms, self.noise.0]))
     }
 
     /// Whether the residual beyond the noise is too small to matter.
@@ -180,8 +189,11 @@ impl Situation<'_> {
             NoiseFloorSource::Unknown => "of its noise the logs tell nothing".to_owned(),
             _ => format!("{} N m {}", size(rms), source.words()),
         };
-        if self.near_rest > rms {
-            return format!("{noise}, {} N m of dry friction while it turns", size(self.near_rest));
+        if self.friction.all > rms {
+            return format!(
+                "{noise}, {} N m of dry friction while it turns",
+                size(self.friction.all)
+            );
         }
         noise
     }
@@ -241,7 +253,8 @@ mod tests {
             samples: 450.0,
             noise: (noise, NoiseFloorSource::Effort),
             source: TorqueSource::Measured,
-            near_rest: 0.0,
+            friction: FrictionError { all: 0.0, sliding: 0.0 },
+            sliding_rms: remaining_rms,
             practical: 0.02,
             structure: 0.0,
             above_hz: Some(8.0),
@@ -286,7 +299,9 @@ mod tests {
         let of_the_arm = Situation { own: 0, ..joint(1, 1.6, 1.6) };
         assert_eq!(of_the_arm.verdict().0, Verdict::Explained);
         // Nor does the friction of a joint that often turns.
-        let turning = |left| Situation { near_rest: 1.5, ..joint(0, left, 0.1) }.verdict().0;
+        let friction = FrictionError { all: 1.5, sliding: 0.6 };
+        let turning =
+            |left| Situation { friction, sliding_rms: 0.1, ..joint(0, left, 0.1) }.verdict().0;
         assert_eq!(turning(1.4), Verdict::Consistent);
         assert_eq!(turning(1.6), Verdict::DataInadequate);
     }
@@ -317,9 +332,15 @@ mod tests {
 
     #[test]
     fn dry_friction_that_turns_may_be_anything_up_to_its_level() {
-        let turning = |near_rest| Situation { near_rest, ..joint(0, 0.5, 0.1) };
-        assert_eq!(turning(0.2).verdict().0, Verdict::Unexplained);
-        assert_eq!(turning(0.45).verdict().0, Verdict::Consistent);
+        let turning = |all, sliding_rms| {
+            let friction = FrictionError { all, sliding: 0.15 };
+            Situation { friction, sliding_rms, ..joint(0, 0.5, 0.1) }.verdict().0
+        };
+        assert_eq!(turning(0.2, 0.1), Verdict::Unexplained);
+        assert_eq!(turning(0.45, 0.1), Verdict::Consistent);
+        // While it slides, its law errs by no more than .15 of its level: sqrt(.1^2 + .15^2) = .18.
+        assert_eq!(turning(0.45, 0.2), Verdict::Consistent);
+        assert_eq!(turning(0.45, 0.3), Verdict::Unexplained);
     }
 
     #[test]

@@ -2,6 +2,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::columns::design::Design;
+use crate::columns::stratum::Stratum;
 use crate::regression::blocks::Block;
 
 /// Sufficient statistics of one joint in one block: with `X` its local columns and `y` its
@@ -48,7 +49,7 @@ impl JointGram {
     }
 }
 
-/// Sufficient statistics of every block, `[block][joint]`.
+/// Sufficient statistics of every block, `[block][stratum]`.
 #[derive(Debug, Clone)]
 pub(crate) struct Grams {
     blocks: Vec<Vec<JointGram>>,
@@ -78,21 +79,20 @@ impl Information {
 impl Grams {
     /// One pass over the design.
     pub fn new(design: &Design, blocks: &[Block]) -> Self {
-        let joint = |block: &Block, j: usize| {
-            let signals = &design.runs[block.run].joints[j];
-            let informative: Vec<usize> = block
-                .samples
-                .clone()
-                .filter(|t| signals.is_informative.get(*t) == Some(&true))
-                .collect();
-            let y = signals.residual().skip(block.samples.start).take(block.samples.len());
-            let y = y.zip(&signals.is_informative[block.samples.clone()]).filter(|(_, is)| **is);
-            let y = DVector::from_iterator(informative.len(), y.map(|(y, _)| y));
-            let x = signals.x.select_rows(&informative);
+        let stratum = |block: &Block, s: Stratum| {
+            let signals = &design.runs[block.run].joints[s.joint()];
+            let is_of = |t: &usize| signals.stratum(s.joint(), *t) == Some(s);
+            let own: Vec<usize> = block.samples.clone().filter(is_of).collect();
+            let y =
+                signals.residual().enumerate().skip(block.samples.start).take(block.samples.len());
+            let y = y.filter(|(t, _)| is_of(t)).map(|(_, y)| y);
+            let y = DVector::from_iterator(own.len(), y);
+            let x = signals.x.select_rows(&own);
             let xt = x.transpose();
             JointGram { xx: &xt * &x, xy: &xt * &y, yy: y.norm_squared(), count: y.len() }
         };
-        let all = |block: &Block| (0..design.joints()).map(|j| joint(block, j)).collect();
+        let all =
+            |block: &Block| Stratum::all(design.joints()).map(|s| stratum(block, s)).collect();
         Self {
             blocks: blocks.par_iter().map(all).collect(),
             local: design.local.clone(),
@@ -105,29 +105,29 @@ impl Grams {
         self.local.len()
     }
 
-    /// The statistics of joint `j` over the blocks `of`.
-    pub fn joint(&self, j: usize, of: &[usize]) -> JointGram {
-        let mut sum = JointGram::empty(self.local[j].len());
-        of.iter().for_each(|&b| sum.add(&self.blocks[b][j]));
+    /// The statistics of a stratum over the blocks `of`.
+    pub fn stratum(&self, s: Stratum, of: &[usize]) -> JointGram {
+        let mut sum = JointGram::empty(self.local[s.joint()].len());
+        of.iter().for_each(|&b| sum.add(&self.blocks[b][s.index()]));
         sum
     }
 
-    /// The statistics of every joint over the blocks `of`.
+    /// The statistics of every stratum over the blocks `of`.
     pub fn sums(&self, of: &[usize]) -> Vec<JointGram> {
-        (0..self.joints()).map(|j| self.joint(j, of)).collect()
+        Stratum::all(self.joints()).map(|s| self.stratum(s, of)).collect()
     }
 
-    /// The normal equations over the blocks `of`, joint `j` with weight `weight[j]`.
+    /// The normal equations over the blocks `of`, stratum `s` with weight `weight[s]`.
     pub fn information(&self, of: &[usize], weight: &[f64]) -> Information {
         self.weigh(&self.sums(of), weight)
     }
 
-    /// The normal equations from the statistics of every joint, joint `j` with weight `weight[j]`.
+    /// The normal equations from the statistics of every stratum, stratum `s` with weight `weight[s]`.
     pub fn weigh(&self, sums: &[JointGram], weight: &[f64]) -> Information {
         let (mut h, mut g) = (DMatrix::zeros(self.width, self.width), DVector::zeros(self.width));
         let mut yy = 0.0;
-        for (j, &c) in weight.iter().enumerate().filter(|(_, c)| **c > 0.0) {
-            let sum = &sums[j];
+        for (s, &c) in Stratum::all(self.joints()).zip(weight).filter(|(_, c)| **c > 0.0) {
+            let (j, sum) = (s.joint(), &sums[s.index()]);
             yy += c * sum.yy;
             for (a, &row) in self.local[j].iter().enumerate() {
                 g[row] += c * sum.xy[a];
@@ -142,9 +142,10 @@ impl Grams {
     /// `sum_j c_j X_j' (y_j - X_j w)` of one block.
     pub fn score(&self, block: usize, weight: &[f64], w: &[f64]) -> DVector<f64> {
         let mut score = DVector::zeros(self.width);
-        for (j, &c) in weight.iter().enumerate().filter(|(_, c)| **c > 0.0) {
+        for (s, &c) in Stratum::all(self.joints()).zip(weight).filter(|(_, c)| **c > 0.0) {
+            let j = s.joint();
             let local = self.local(j, w);
-            let part = self.blocks[block][j].score(&local);
+            let part = self.blocks[block][s.index()].score(&local);
             self.local[j].iter().zip(part.iter()).for_each(|(&k, s)| score[k] += c * s);
         }
         score
@@ -156,12 +157,11 @@ impl Grams {
         all.filter(|(_, w)| w.abs() > 0.0).collect()
     }
 
-    /// Sum of squares after `w` and number of samples, at joint `j` over the blocks `of`.
-    pub fn remaining(&self, j: usize, of: &[usize], w: &[f64]) -> (f64, usize) {
-        let local = self.local(j, w);
-        of.iter().fold((0.0, 0), |(sum, n), &b| {
-            let gram = &self.blocks[b][j];
-            (sum + gram.remaining(&local), n + gram.count)
-        })
+    /// Sum of squares of a block after `w`, stratum `s` with weight `weight[s]`.
+    pub fn deviance(&self, block: usize, weight: &[f64], w: &[f64]) -> f64 {
+        let of = |(s, weight): (Stratum, &f64)| {
+            weight * self.blocks[block][s.index()].remaining(&self.local(s.joint(), w))
+        };
+        Stratum::all(self.joints()).zip(weight).map(of).sum()
     }
 }

@@ -1,4 +1,9 @@
-/// Variance and autocorrelation time of the noise of each joint.
+use crate::regression::gram::JointGram;
+
+/// Variance and autocorrelation time of the noise of each stratum.
+///
+/// Near rest dry friction has any value up to its level, so that a right model leaves there up to a hundred times what it
+/// leaves in sliding. With one variance for both, this would hide what the sliding samples show.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Noise {
     /// Variance of the residual ((N·m)² or N²).
@@ -8,34 +13,53 @@ pub(crate) struct Noise {
 }
 
 impl Noise {
-    /// The noise of residuals `[joint][stretch][sample]`.
-    pub fn of(residuals: &[Vec<Vec<f64>>]) -> Self {
+    /// The noise of residuals `[stratum][stretch][sample]`; see [`least_sliding`](crate::thresholds::signals::SignalThresholds::least_sliding).
+    pub fn of(residuals: &[Vec<Vec<f64>>], least_share: f64) -> Self {
         let power = |stretches: &Vec<Vec<f64>>| {
-            let (n, sum) =
-                stretches.iter().flatten().fold((0, 0.0), |(n, s), r| (n + 1, s + r * r));
-            sum / f64::from(n.max(1))
+            let all = || stretches.iter().flatten();
+            (all().map(|r| r * r).sum(), all().count())
         };
         Self {
-            variance: residuals.iter().map(power).collect(),
+            variance: variances(residuals.iter().map(power).collect(), least_share),
             time: residuals.iter().map(|s| integrated_time(s)).collect(),
         }
     }
 
-    /// Weight of joint `j`'s squared residuals in the log-likelihood:
+    /// White noise as large as the signals of all strata.
+    pub fn of_grams(strata: &[JointGram], least_share: f64) -> Self {
+        let powers = strata.iter().map(|gram| (gram.yy, gram.count)).collect();
+        Self { variance: variances(powers, least_share), time: vec![1.0; strata.len()] }
+    }
+
+    /// Weight of the squared residuals of stratum `s` in the log-likelihood:
     ///
     /// ```text
-    /// c_j = 1 / (variance_j time_j)
+    /// c_s = 1 / (variance_s time_s)
     /// ```
     ///
     /// so that `n` correlated samples count as `n / time` independent ones. A joint that did not move, or whose
     /// residual is zero, has weight zero.
     pub fn weights(&self, moved: &[bool]) -> Vec<f64> {
+        let moved = moved.iter().flat_map(|moved| [moved; 2]);
         let floor = self.variance.iter().fold(0.0, |m: f64, v| m.max(*v)) * 1e-12;
         let weight = |((v, t), moved): ((&f64, &f64), &bool)| {
             if *moved && *v > 0.0 { 1.0 / (v.max(floor) * t) } else { 0.0 }
         };
         self.variance.iter().zip(&self.time).zip(moved).map(weight).collect()
     }
+}
+
+/// Variances from the sums of squares and counts of both strata of every joint: at least that of sliding near rest, and
+/// that of both where fewer than `least_share` of the samples slide.
+fn variances(powers: Vec<(f64, usize)>, least_share: f64) -> Vec<f64> {
+    let of_joint = |strata: &[(f64, usize)]| -> [f64; 2] {
+        let [sliding, near_rest] = [strata[0], strata[1]];
+        let mean = |(sum, count): (f64, usize)| sum / count.max(1) as f64;
+        let all = (sliding.0 + near_rest.0, sliding.1 + near_rest.1);
+        let is_few = (sliding.1 as f64) < least_share * all.1 as f64;
+        if is_few { [mean(all); 2] } else { [mean(sliding), mean(sliding).max(mean(near_rest))] }
+    };
+    powers.chunks_exact(2).flat_map(of_joint).collect()
 }
 
 /// Integrated autocorrelation time (samples) of a signal recorded in stretches:
@@ -74,6 +98,19 @@ mod tests {
     use rand::{RngExt, SeedableRng};
 
     use super::*;
+
+    /// A joint whose residual is 3 near rest and 1 while it slides, and one that slides in too few samples.
+    #[test]
+    fn each_stratum_has_its_own_variance_where_it_has_samples_enough() {
+        let residual = |size: f64, samples: usize| vec![vec![size; samples]];
+        let of = |sliding, near_rest| Noise::of(&[sliding, near_rest], 0.1).variance;
+        assert_eq!(of(residual(1.0, 30), residual(3.0, 10)), [1.0, 9.0]);
+        // Near rest the noise is no smaller than elsewhere.
+        assert_eq!(of(residual(1.0, 30), residual(0.5, 10)), [1.0, 1.0]);
+        assert_eq!(of(residual(1.0, 30), vec![Vec::new()]), [1.0, 1.0]);
+        // (1 + 19 9) / 20
+        assert_eq!(of(residual(1.0, 1), residual(3.0, 19)), [8.6, 8.6]);
+    }
 
     #[test]
     fn integrated_time_of_a_first_order_process_is_its_closed_form() {

@@ -4,6 +4,8 @@ use std::sync::Arc;
 use nalgebra::DVector;
 
 use crate::columns::design::Design;
+use crate::columns::run_design::JointDesign;
+use crate::columns::stratum::Stratum;
 use crate::regression::blocks::{Block, Fold, Folding, folds};
 use crate::regression::fit::Fit;
 use crate::regression::gram::{Grams, Information, JointGram};
@@ -25,7 +27,7 @@ pub(crate) struct Problem<'a> {
     /// The folds that are held out in turn.
     pub folds: Vec<Fold>,
     sums: Arc<Sums>,
-    /// Weight of each joint's squared residuals.
+    /// Weight of the squared residuals, `[stratum]`.
     pub weight: Vec<f64>,
     pub thresholds: &'a Thresholds,
     /// Normal equations of all blocks.
@@ -34,14 +36,14 @@ pub(crate) struct Problem<'a> {
     pub training: Vec<Information>,
 }
 
-/// Statistics of every joint summed over blocks: all weightings of a problem share them.
+/// Statistics of every stratum summed over blocks: all weightings of a problem share them.
 #[derive(Debug)]
 struct Sums {
-    /// Over all blocks of the problem, `[joint]`.
+    /// Over all blocks of the problem, `[stratum]`.
     all: Vec<JointGram>,
-    /// Over the blocks that each fold is fitted to, `[fold][joint]`.
+    /// Over the blocks that each fold is fitted to, `[fold][stratum]`.
     training: Vec<Vec<JointGram>>,
-    /// Over the blocks that each fold holds out, `[fold][joint]`.
+    /// Over the blocks that each fold holds out, `[fold][stratum]`.
     tests: Vec<Vec<JointGram>>,
 }
 
@@ -60,12 +62,14 @@ impl Sums {
 pub(crate) struct HeldOutResiduals {
     /// Mean square at each joint.
     pub mean_square: Vec<f64>,
+    /// The same of the samples in which the joint slides.
+    pub mean_square_sliding: Vec<f64>,
     /// Weighted sum of squares of all joints.
     pub deviance: f64,
 }
 
 impl<'a> Problem<'a> {
-    /// The problem on the blocks `of`, with the joints weighted by `weight`.
+    /// The problem on the blocks `of`, with the strata weighted by `weight`.
     pub fn new(
         design: &'a Design,
         blocks: &'a [Block],
@@ -156,17 +160,24 @@ impl<'a> Problem<'a> {
     /// Squared residuals of a model on held-out blocks.
     pub fn hold_out(&self, model: &HypothesisSet) -> HeldOutResiduals {
         let joints = self.design.joints();
-        let (mut squares, mut counts) = (vec![0.0; joints], vec![0_usize; joints]);
+        let mut sums = vec![(0.0, 0_usize); 2 * joints];
+        let mut deviance = 0.0;
         for (f, test) in self.sums.tests.iter().enumerate() {
             let w = self.fold_weights(model, f);
-            for (j, gram) in test.iter().enumerate() {
-                squares[j] += gram.remaining(&self.grams.local(j, &w));
-                counts[j] += gram.count;
+            for ((s, gram), weight) in Stratum::all(joints).zip(test).zip(&self.weight) {
+                let left = gram.remaining(&self.grams.local(s.joint(), &w));
+                deviance += weight * left;
+                let (sum, count) = &mut sums[s.index()];
+                (*sum, *count) = (*sum + left, *count + gram.count);
             }
         }
-        let deviance = squares.iter().zip(&self.weight).map(|(s, weight)| weight * s).sum();
-        let mean = |(s, &n): (&f64, &usize)| s / n.max(1) as f64;
-        HeldOutResiduals { mean_square: squares.iter().zip(&counts).map(mean).collect(), deviance }
+        let mean = |sum: f64, count: usize| sum / count.max(1) as f64;
+        let both = |of: &[(f64, usize)]| mean(of[0].0 + of[1].0, of[0].1 + of[1].1);
+        HeldOutResiduals {
+            mean_square: sums.chunks_exact(2).map(both).collect(),
+            mean_square_sliding: sums.iter().step_by(2).map(|of| mean(of.0, of.1)).collect(),
+            deviance,
+        }
     }
 
     /// The weighted sum of squares of every block, from the fold that holds it out.
@@ -175,9 +186,7 @@ impl<'a> Problem<'a> {
         for (f, fold) in self.folds.iter().enumerate() {
             let w = self.fold_weights(model, f);
             for &b in &fold.test {
-                let joint =
-                    |(j, weight): (usize, &f64)| weight * self.grams.remaining(j, &[b], &w).0;
-                deviance[b] = self.weight.iter().enumerate().map(joint).sum();
+                deviance[b] = self.grams.deviance(b, &self.weight, &w);
             }
         }
         deviance
@@ -200,24 +209,27 @@ impl<'a> Problem<'a> {
         &self,
         left: impl Fn(usize, &Block, usize) -> Vec<f64>,
     ) -> Vec<Vec<Vec<f64>>> {
-        self.residuals(left, |_, left| left.to_vec())
+        self.residuals(left, |_, _| true)
     }
 
-    /// Held-out residuals of the informative samples.
-    pub fn informative_residuals(
+    /// Held-out residuals, `[stratum][run][sample]`.
+    fn residuals_by_stratum(
         &self,
         left: impl Fn(usize, &Block, usize) -> Vec<f64>,
     ) -> Vec<Vec<Vec<f64>>> {
-        self.residuals(left, |is_informative, left| {
-            left.iter().zip(is_informative).filter(|(_, is)| **is).map(|(left, _)| *left).collect()
-        })
+        let [sliding, near_rest] = [true, false].map(|slides| {
+            self.residuals(&left, move |joint, t| {
+                joint.is_informative[t] && joint.slides[t] == slides
+            })
+        });
+        sliding.into_iter().zip(near_rest).flat_map(|(a, b)| [a, b]).collect()
     }
 
-    /// Held-out residuals; `taken` chooses from a block's informative samples and residual.
+    /// Held-out residuals of the samples that are `taken` of the signals of a joint.
     fn residuals(
         &self,
         left: impl Fn(usize, &Block, usize) -> Vec<f64>,
-        taken: impl Fn(&[bool], &[f64]) -> Vec<f64>,
+        taken: impl Fn(&JointDesign, usize) -> bool,
     ) -> Vec<Vec<Vec<f64>>> {
         let fold_of = |b: usize| self.folds.iter().position(|f| f.test.contains(&b));
         let mut residuals = vec![Vec::new(); self.design.joints()];
@@ -229,9 +241,12 @@ impl<'a> Problem<'a> {
                 continue;
             }
             for (j, residual) in residuals.iter_mut().enumerate() {
-                let is_informative = &self.design.runs[run].joints[j].is_informative;
+                let signals = &self.design.runs[run].joints[j];
                 let part = |(block, f): &(&Block, usize)| {
-                    taken(&is_informative[block.samples.clone()], &left(*f, block, j))
+                    let left = left(*f, block, j).into_iter().zip(block.samples.clone());
+                    left.filter(|(_, t)| taken(signals, *t))
+                        .map(|(left, _)| left)
+                        .collect::<Vec<_>>()
                 };
                 residual.push(own.iter().flat_map(part).collect());
             }
@@ -245,14 +260,14 @@ impl<'a> Problem<'a> {
             (0..self.folds.len()).map(|fold| self.fold_weights(model, fold)).collect();
         let residual =
             |fold: usize, block: &Block, j| block.remaining(self.design, j, &weights[fold]);
-        Noise::of(&self.informative_residuals(residual))
+        Noise::of(&self.residuals_by_stratum(residual), self.thresholds.signals.least_sliding)
     }
 
     /// The noise that a model leaves on the blocks it is fitted to.
     pub fn training_noise(&self, model: &HypothesisSet) -> Noise {
         let weights = self.fit(model).map(|f| f.expand(self.design.width)).unwrap_or_default();
         let residual = |_, block: &Block, j| block.remaining(self.design, j, &weights);
-        Noise::of(&self.informative_residuals(residual))
+        Noise::of(&self.residuals_by_stratum(residual), self.thresholds.signals.least_sliding)
     }
 
     /// The model with every hypothesis at once. In a design of the efforts it leaves out effects that an error

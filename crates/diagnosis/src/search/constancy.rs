@@ -195,18 +195,16 @@ fn equations(
     let (known, added) = (columns.len(), factors.first().map_or(0, DMatrix::ncols));
     h = h.resize(known + added, known + added, 0.0);
     g = g.resize_vertically(known + added, 0.0);
-    let weight = problem.weight[*joint];
     let design = problem.design;
     for block in of.iter().map(|&b| &problem.blocks[b]) {
         let signals = &design.runs[block.run].joints[*joint];
         let (from, samples) = (block.samples.start, block.samples.len());
         let mut b = factors[block.run].rows(from, samples).into_owned();
-        for (t, counts) in signals.is_informative[block.samples.clone()].iter().enumerate() {
-            if !counts {
-                b.row_mut(t).fill(0.0);
-            }
-        }
-        let x = signals.x.rows(from, samples).tr_mul(&b) * weight;
+        let weight = |t| signals.stratum(*joint, t).map_or(0.0, |s| problem.weight[s.index()]);
+        let weights = DVector::from_iterator(samples, block.samples.clone().map(weight));
+        let unweighted = b.clone();
+        b.column_iter_mut().for_each(|mut column| column.component_mul_assign(&weights));
+        let x = signals.x.rows(from, samples).tr_mul(&b);
         for (i, k) in columns.iter().enumerate() {
             let Some(place) = design.local[*joint].iter().position(|c| c == k) else { continue };
             for e in 0..added {
@@ -214,12 +212,12 @@ fn equations(
                 h[(known + e, i)] += x[(place, e)];
             }
         }
-        let own = b.tr_mul(&b) * weight;
+        let own = b.tr_mul(&unweighted);
         let mut corner = h.view_mut((known, known), (added, added));
         corner += own;
         let y = DVector::from_iterator(samples, signals.residual().skip(from).take(samples));
         let mut last = g.rows_mut(known, added);
-        last += b.tr_mul(&y) * weight;
+        last += b.tr_mul(&y);
     }
     Equations { h, g, yy: info.yy }
 }

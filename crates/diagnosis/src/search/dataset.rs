@@ -1,10 +1,12 @@
 use robot::Robot;
 
 use crate::columns::design::Design;
+use crate::columns::stratum::Stratum;
 use crate::regression::blocks::Block;
 use crate::regression::gram::Grams;
 use crate::regression::noise::Noise;
 use crate::regression::problem::Problem;
+use crate::search::friction_error::FrictionError;
 use crate::search::select::Selection;
 use crate::thresholds::Thresholds;
 
@@ -17,8 +19,8 @@ pub(crate) struct Dataset<'a> {
     pub grams: &'a Grams,
     /// Least fall of the held-out RMS error of each joint that counts (N·m or N).
     pub practical: &'a [f64],
-    /// RMS of the described dry friction of each joint near changes of direction (N·m or N).
-    pub near_rest: &'a [f64],
+    /// What the law of described dry friction may err by at each joint.
+    pub friction: &'a [FrictionError],
     pub thresholds: &'a Thresholds,
 }
 
@@ -29,12 +31,7 @@ impl<'a> Dataset<'a> {
     /// This noise is too small. A search measures it again and corrects it, whereas noise that is too large would
     /// hide causes.
     pub fn problem(&self, of: &[usize]) -> Problem<'a> {
-        let power = |j: usize| {
-            let all = self.grams.joint(j, of);
-            all.yy / all.count.max(1) as f64
-        };
-        let joints = self.design.joints();
-        let start = Noise { variance: (0..joints).map(power).collect(), time: vec![1.0; joints] };
+        let start = Noise::of_grams(&self.grams.sums(of), self.thresholds.signals.least_sliding);
         let weight = start.weights(&self.design.moved);
         let rough = Problem::new(self.design, self.blocks, self.grams, of, weight, self.thresholds);
         let noise = rough.training_noise(&rough.everything());
@@ -46,8 +43,8 @@ impl<'a> Dataset<'a> {
         let all: Vec<usize> = (0..self.blocks.len()).collect();
         let problem = self.problem(&all);
         let noise = problem.noise(&problem.everything());
-        let moved = noise.time.iter().zip(&self.design.moved).filter(|(_, m)| **m);
-        let mut times: Vec<f64> = moved.map(|(t, _)| *t).collect();
+        let moved = (0..self.design.joints()).filter(|j| self.design.moved[*j]);
+        let mut times: Vec<f64> = moved.map(|j| noise.time[Stratum::sliding(j).index()]).collect();
         times.sort_by(f64::total_cmp);
         times.get(times.len() / 2).copied().unwrap_or(1.0)
     }
@@ -58,7 +55,7 @@ impl<'a> Dataset<'a> {
             problem,
             robot: self.robot,
             practical: self.practical,
-            near_rest: self.near_rest,
+            friction: self.friction,
             barred: None,
         }
     }

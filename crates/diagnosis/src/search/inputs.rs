@@ -12,6 +12,7 @@ use crate::regression::gram::Grams;
 use crate::regression::linear_fit::LinearFit;
 use crate::regression::problem::{HypothesisSet, Problem};
 use crate::search::dataset::Dataset;
+use crate::search::friction_error::FrictionError;
 use crate::settings::Settings;
 use crate::signals::log::Log;
 use crate::thresholds::Thresholds;
@@ -46,10 +47,10 @@ impl Inputs<'_> {
         &'a self,
         blocks: &'a [Block],
         grams: &'a Grams,
-        [practical, near_rest]: &'a [Vec<f64>; 2],
+        (practical, friction): &'a (Vec<f64>, Vec<FrictionError>),
     ) -> Dataset<'a> {
         let (robot, design, thresholds) = (self.robot, self.design, self.thresholds());
-        Dataset { robot, design, blocks, grams, practical, near_rest, thresholds }
+        Dataset { robot, design, blocks, grams, practical, friction, thresholds }
     }
 
     /// Blocks of at least five autocorrelation times of the residual with all hypotheses in the model.
@@ -64,10 +65,10 @@ impl Inputs<'_> {
         Ok(blocks(self.design, memory, thresholds))
     }
 
-    /// Least falls of each joint's held-out RMS error that count: of any effect, and of one like friction that turns.
-    fn least_falls(&self) -> [Vec<f64>; 2] {
-        let near_rest = (0..self.design.joints()).map(|j| self.near_rest(j)).collect();
-        [self.practical(), near_rest]
+    /// What the least falls of each joint's held-out error follow from: the least RMS that counts, and described friction.
+    fn least_falls(&self) -> (Vec<f64>, Vec<FrictionError>) {
+        let friction = (0..self.design.joints()).map(|j| self.friction_error(j)).collect();
+        (self.practical(), friction)
     }
 
     /// Least fall of each joint's held-out RMS error that counts (N·m or N).
@@ -82,13 +83,8 @@ impl Inputs<'_> {
         (0..self.design.joints()).map(|j| self.settings.practical_share * rms(j)).collect()
     }
 
-    /// RMS of the described dry friction near changes of direction, where it may have any value up to its level (N·m
-    /// or N):
-    ///
-    /// ```text
-    /// level sqrt(share / 3)   with `share` of the informative samples near a change of direction
-    /// ```
-    pub fn near_rest(&self, j: usize) -> f64 {
+    /// What the law of described dry friction may err by at joint `j`.
+    pub fn friction_error(&self, j: usize) -> FrictionError {
         let joints = || self.design.runs.iter().map(|run| &run.joints[j]);
         let informative = joints().flat_map(|joint| &joint.is_informative).filter(|t| **t).count();
         let slides = |joint: &JointDesign| {
@@ -97,9 +93,9 @@ impl Inputs<'_> {
         let sliding: usize = joints().map(slides).sum();
         let drive = &self.nominal.links()[j].actuator;
         let level = 0.5 * (drive.coulomb_forward + drive.coulomb_backward);
-        let gain = drive.transmission_ratio * drive.torque_gain;
-        (gain * level).abs()
-            * ((informative - sliding) as f64 / (3 * informative.max(1)) as f64).sqrt()
+        let level = (drive.transmission_ratio * drive.torque_gain * level).abs();
+        let counts = [informative - sliding, informative];
+        FrictionError::new(level, counts, self.thresholds().search.rough_friction)
     }
 
     /// A robot without the trial shapes of effects that it lacks, and with the tones and limits of the logs.

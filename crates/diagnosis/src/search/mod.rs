@@ -6,6 +6,7 @@ pub(crate) mod causes;
 pub(crate) mod change;
 pub(crate) mod constancy;
 pub(crate) mod dataset;
+pub(crate) mod friction_error;
 pub(crate) mod inputs;
 pub(crate) mod kept_nominal;
 pub(crate) mod ledger;

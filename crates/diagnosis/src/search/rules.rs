@@ -160,7 +160,7 @@ impl Selection<'_> {
 
     /// With `g` the error of held-out blocks falls by enough at one of its joints: by the practical share, or by half
     /// of the residual (RMS). What is like friction that turns must also explain more than described friction may have
-    /// near changes of direction.
+    /// near rest, or more than its law may err by while the joint slides.
     pub fn pays(
         &self,
         before: &HeldOutResiduals,
@@ -170,16 +170,19 @@ impl Selection<'_> {
         let share = self.thresholds().remaining_share;
         let fall = |j: usize| before.mean_square[j] - after.mean_square[j];
         let group = &self.problem.design.groups[g];
-        let near_rest = |j: usize| {
-            let is_like_it = group.hypothesis.is_like_turning_friction();
-            if is_like_it { self.near_rest[j] } else { 0.0 }
-        };
+        let is_like_it = group.hypothesis.is_like_turning_friction();
+        let near_rest = |j: usize| if is_like_it { self.friction[j].all } else { 0.0 };
         let least = |j: usize| {
             let least = self.practical[j].powi(2).min(share.powi(2) * before.mean_square[j]);
             least.max(near_rest(j).powi(2))
         };
+        let pays_in_sliding = |j: usize| {
+            let fall = before.mean_square_sliding[j] - after.mean_square_sliding[j];
+            let error = self.friction[j].sliding;
+            is_like_it && error > 0.0 && fall > self.practical[j].max(error).powi(2)
+        };
         let joints = &group.joints;
-        if joints.iter().any(|&j| fall(j) > least(j)) {
+        if joints.iter().any(|&j| fall(j) > least(j) || pays_in_sliding(j)) {
             return lowers_deviance(before, after);
         }
         let lack = |j: usize| least(j) - fall(j);

@@ -6,6 +6,7 @@ use robot::Robot;
 use crate::regression::fit::Fit;
 use crate::regression::problem::{HypothesisSet, Problem};
 use crate::search::change::{Change, ChangeKind};
+use crate::search::friction_error::FrictionError;
 use crate::search::model_state::ModelState;
 use crate::thresholds::search::SearchThresholds;
 
@@ -21,8 +22,8 @@ pub(crate) struct Selection<'a> {
     pub robot: &'a Robot,
     /// Least fall of the held-out RMS error of each joint that counts (N·m or N).
     pub practical: &'a [f64],
-    /// See [`crate::search::dataset::Dataset::near_rest`].
-    pub near_rest: &'a [f64],
+    /// See [`Dataset::friction`](crate::search::dataset::Dataset::friction).
+    pub friction: &'a [FrictionError],
     /// A hypothesis that may not enter.
     pub barred: Option<usize>,
 }

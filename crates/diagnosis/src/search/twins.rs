@@ -63,8 +63,7 @@ impl Twins<'_> {
         let first = self.inputs.first_fit(self.selection.problem, model, fitted);
         let last = fitted.last_fit(first);
         let Problem { grams, weight, .. } = &*last.problem;
-        let joint = |j: usize, b: usize| weight[j] * grams.remaining(j, &[b], last.weights).0;
-        let block = |b: &usize| (0..weight.len()).map(|j| joint(j, *b)).sum::<f64>();
+        let block = |b: &usize| grams.deviance(*b, weight, last.weights);
         let group = |blocks: Vec<usize>| blocks.iter().map(block).sum();
         last.problem.independent().into_iter().map(group).collect()
     }

@@ -240,11 +240,9 @@ impl<'a> Along<'a> {
         moving_mask.into_iter().map(|share| share > self.thresholds.informative_share).collect()
     }
 
-    /// Whether joint `j` slides at a sample at the rate of the regression, without changing its direction there.
+    /// Whether joint `j` slides at a sample at the rate of the regression, out of reach of the low-pass from rest.
     pub fn slides(&self, j: usize) -> Vec<bool> {
-        let (rests, stands) = (self.motion.rests(j), self.motion.stands(j));
-        let turns: Vec<bool> = rests.iter().zip(stands).map(|(rests, s)| *rests && !s).collect();
-        self.is_clear(&turns)
+        self.is_clear(&self.motion.rests(j))
     }
 
     /// The columns of one effect, low-passed, at the rate of the regression and orthogonal to the tones. The sizes of

@@ -21,6 +21,8 @@ pub struct SearchThresholds {
     /// Least fall of a joint's held-out error that counts, as a share of its residual (RMS, 1), where that is less
     /// than the practical share. Without it, two joints of the LWR 4 are 8 and 18 per cent worse.
     pub remaining_share: f64,
+    /// Error of the law of described dry friction while a joint slides, as a share of its level (1).
+    pub rough_friction: f64,
     /// Least share of what a change of a link's inertia explains that a physical inertia must explain (1). With 0, 18
     /// per cent more rivals in 18 trials; with .5 another link takes the place of the right one
     /// (`tests/diagnosis/found.rs`); with .95 joints of the LWR 4 are worse.
@@ -58,10 +60,11 @@ impl Default for SearchThresholds {
             rival_errors: 2.0,
             exchange_evidence: 1.0,
             remaining_share: 0.5,
+            rough_friction: 0.15,
             kept_by_bodies: 0.9,
             body_errors: [1.0, 2.0, 4.0, 8.0, 16.0, 32.0],
             supplement_gain: 0.02,
-            supplement_harm: 0.01,
+            supplement_harm: 0.02,
             partners: 3,
             variation: 0.25,
             variation_of_rough: 0.7,

@@ -8,6 +8,9 @@ pub struct SignalThresholds {
     /// informative (1). With a smaller share the signal falls below the noise: the power of the signal falls with the
     /// square of the share, that of the noise with the share itself.
     pub informative_share: f64,
+    /// Least share of a joint's informative samples in which it must slide for them to have a variance of their own (1): of
+    /// fewer it is hardly known.
+    pub least_sliding: f64,
     /// Noise of the readings of the efforts, as a share of them, above which the start of a run takes no part (1): the
     /// low-pass begins in the first reading, with all of its noise.
     pub noisy_readings: f64,
@@ -27,6 +30,7 @@ impl Default for SignalThresholds {
         Self {
             filter_reach: 0.35,
             informative_share: 2.0 / 3.0,
+            least_sliding: 0.1,
             noisy_readings: 0.1,
             moving_share: 0.05,
             repeat_difference: 0.01,
