@@ -1,5 +1,5 @@
 use checks::arms::wam;
-use robot::Inertia;
+use robot::{Inertia, Robot};
 
 use crate::rig::{effects, flywheel};
 
@@ -90,6 +90,33 @@ fn what_no_arm_has_is_refused_at_its_key() {
         let mistake = effects(&format!("[[effect]]\n{toml}"))[0].inject(&robot).err().unwrap();
         assert_eq!(mistake.key, key, "{toml}");
         assert!(mistake.found.contains(part), "{toml}: {}", mistake.found);
+    }
+}
+
+/// A screw of lead `l` makes of a motor's friction and rotor `(2 pi / l)^2` times as much, in N s/m and kg.
+#[test]
+fn a_joint_that_slides_has_bounds_of_its_own() {
+    let robot = |kind: &str| {
+        Robot::from_urdf(&format!(
+            r#"<robot name="axis"><link name="base"/><link name="slide"><inertial><mass value="9"/>
+            <inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link>
+            <joint name="joint" type="{kind}"><parent link="base"/><child link="slide"/>
+            <axis xyz="0 0 1"/><limit lower="-1" upper="1" velocity="1" effort="900"/></joint></robot>"#
+        ))
+        .unwrap()
+    };
+    let refused = |kind: &str, toml: &str| {
+        effects(&format!("[[effect]]\n{toml}"))[0].inject(&robot(kind)).err().map(|m| m.found)
+    };
+    let friction = "viscous_friction = { joint = 'joint', viscous_nm_s_per_rad = 1018 }";
+    let rotor = "rotor_inertia = { joint = 'joint', inertia_kg_m2 = 395 }";
+    let most = [(friction, "1018", "100000", "1000"), (rotor, "395", "10000", "100")];
+    for (toml, size, sliding, turning) in most {
+        assert_eq!(refused("prismatic", toml), None, "{toml}");
+        let turns = refused("revolute", toml).unwrap();
+        assert!(turns.contains(&format!("to {turning} was expected")), "{turns}");
+        let large = refused("prismatic", &toml.replace(size, "1e6")).unwrap();
+        assert!(large.contains(&format!("to {sliding} was expected")), "{large}");
     }
 }
 

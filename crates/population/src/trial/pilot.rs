@@ -21,7 +21,7 @@ use crate::sheet::Strength;
 const FIRST_SHARE: f64 = 0.1;
 
 /// Least and largest torque share. What takes as much torque as the arm itself is found by hand.
-const SHARES: [f64; 2] = [2e-3, 1.0];
+pub(crate) const SHARES: [f64; 2] = [2e-3, 1.0];
 
 /// Least share of its way that a joint still makes with a cause in the arm. An arm that lags or sags by more is no
 /// longer driven: somebody raises its gains first.

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::effects::mistake::{Mistake, joint_of, within};
 use crate::effects::scenario_effect::ScenarioEffect;
-use crate::effects::surroundings::Surroundings;
+use crate::effects::surroundings::{MOST_DRY, Surroundings};
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::Inject;
 use crate::mechanics::plant::Plant;
@@ -40,8 +40,8 @@ impl ScenarioEffect for AsymmetricFriction {
 
     fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake> {
         let joint = joint_of(robot, &self.joint)?;
-        within("forward_nm", self.forward_nm, 0.0, 1000.0)?;
-        within("backward_nm", self.backward_nm, 0.0, 1000.0)?;
+        within("forward_nm", self.forward_nm, 0.0, MOST_DRY)?;
+        within("backward_nm", self.backward_nm, 0.0, MOST_DRY)?;
         Ok(Box::new(Injected { joint, forward: self.forward_nm, backward: self.backward_nm }))
     }
 
@@ -50,7 +50,9 @@ impl ScenarioEffect for AsymmetricFriction {
         let mean = share * at.torque_rms;
         let side = if random.random_bool(0.5) { 1.0 } else { -1.0 };
         let shift = side * random.random_range(0.1..0.4) * mean;
-        Self { joint: at.joint_name(), forward_nm: mean + shift, backward_nm: mean - shift }
+        let [forward_nm, backward_nm] =
+            [mean + shift, mean - shift].map(|level| level.min(MOST_DRY));
+        Self { joint: at.joint_name(), forward_nm, backward_nm }
     }
 }
 

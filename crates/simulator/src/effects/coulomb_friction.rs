@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::effects::mistake::{Mistake, joint_of, within};
 use crate::effects::scenario_effect::ScenarioEffect;
-use crate::effects::surroundings::Surroundings;
+use crate::effects::surroundings::{MOST_DRY, Surroundings};
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::Inject;
 use crate::mechanics::plant::Plant;
@@ -36,12 +36,12 @@ impl ScenarioEffect for CoulombFriction {
 
     fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake> {
         let joint = joint_of(robot, &self.joint)?;
-        within("level_nm", self.level_nm, 0.0, 1000.0)?;
+        within("level_nm", self.level_nm, 0.0, MOST_DRY)?;
         Ok(Box::new(Injected { joint, level: self.level_nm }))
     }
 
     fn draw(at: &Surroundings<'_>, share: f64, _: &mut ChaCha8Rng) -> Self {
-        Self { joint: at.joint_name(), level_nm: share * at.torque_rms }
+        Self { joint: at.joint_name(), level_nm: at.dry(share) }
     }
 }
 

@@ -19,6 +19,12 @@ pub(crate) fn joint_of(robot: &Robot, name: &str) -> Result<usize, Mistake> {
     })
 }
 
+/// The bound that holds for the kind of a joint: of one that turns, or of one that slides.
+pub(crate) fn by_kind(robot: &Robot, joint: usize, turning: f64, sliding: f64) -> f64 {
+    let turns = robot.links().get(joint).is_none_or(|link| link.joint.kind.is_rotation());
+    if turns { turning } else { sliding }
+}
+
 /// The index of a moving link that a scenario names.
 pub(crate) fn link_of(robot: &Robot, name: &str) -> Result<usize, Mistake> {
     let links = robot.links();

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::effects::mistake::{Mistake, joint_of, within};
 use crate::effects::scenario_effect::ScenarioEffect;
-use crate::effects::surroundings::Surroundings;
+use crate::effects::surroundings::{MOST_DRY, Surroundings};
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
 
@@ -51,7 +51,7 @@ impl ScenarioEffect for PositionDependentFriction {
 
     fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake> {
         let joint = joint_of(robot, &self.joint)?;
-        within("level_nm", self.level_nm, 0.0, 1000.0)?;
+        within("level_nm", self.level_nm, 0.0, MOST_DRY)?;
         within("share", self.share, 0.0, 1.0)?;
         within("periods_per_turn", self.periods_per_turn, 0.0, 10_000.0)?;
         within("phase_rad", self.phase_rad, -TAU, TAU)?;
@@ -67,7 +67,7 @@ impl ScenarioEffect for PositionDependentFriction {
     fn draw(at: &Surroundings<'_>, share: f64, random: &mut ChaCha8Rng) -> Self {
         Self {
             joint: at.joint_name(),
-            level_nm: share * at.torque_rms,
+            level_nm: at.dry(share),
             share: random.random_range(0.1..0.5),
             periods_per_turn: f64::from(random.random_range(1..=10_u8)),
             phase_rad: random.random_range(0.0..TAU),

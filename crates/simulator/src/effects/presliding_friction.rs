@@ -7,12 +7,18 @@ use serde::{Deserialize, Serialize};
 
 use crate::effects::mistake::{Mistake, joint_of, within};
 use crate::effects::scenario_effect::ScenarioEffect;
-use crate::effects::surroundings::Surroundings;
+use crate::effects::surroundings::{MOST_DRY, Surroundings};
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
 
 /// Damping ratio of a rotor on bristles that a description gives: it has no key for it.
 const DAMPING_RATIO: f64 = 0.5;
+
+/// Least dry friction (N m or N).
+const LEAST_DRY: f64 = 1e-6;
+
+/// Least stiffness of bristles (N m/rad or N/m).
+const LEAST_STIFFNESS: f64 = 1e-3;
 
 /// Dry friction that gives like a spring before it slides: the LuGre model without the Stribeck
 /// effect.
@@ -54,9 +60,9 @@ impl ScenarioEffect for PreslidingFriction {
 
     fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake> {
         let joint = joint_of(robot, &self.joint)?;
-        within("stiffness_nm_per_rad", self.stiffness_nm_per_rad, 1e-3, 1e7)?;
+        within("stiffness_nm_per_rad", self.stiffness_nm_per_rad, LEAST_STIFFNESS, 1e7)?;
         within("damping_nm_s_per_rad", self.damping_nm_s_per_rad, 0.0, 1e5)?;
-        within("level_nm", self.level_nm, 1e-6, 1000.0)?;
+        within("level_nm", self.level_nm, LEAST_DRY, MOST_DRY)?;
         Ok(Box::new(Injected {
             joint,
             stiffness: self.stiffness_nm_per_rad,
@@ -68,8 +74,8 @@ impl ScenarioEffect for PreslidingFriction {
 
     /// Bristles that slide after 0.5 to 5 mrad, with a damping ratio of 0.3 to 1 on the rotor.
     fn draw(at: &Surroundings<'_>, share: f64, random: &mut ChaCha8Rng) -> Self {
-        let level = (share * at.torque_rms).max(1e-6);
-        let stiffness = level / random.random_range(5e-4..5e-3);
+        let level = at.dry(share).max(LEAST_DRY);
+        let stiffness = (level / random.random_range(5e-4..5e-3)).max(LEAST_STIFFNESS);
         let rotor = at.robot.links().get(at.joint).map_or(0.0, |l| l.actuator.rotor_inertia);
         let critical = 2.0 * (stiffness * rotor).sqrt();
         Self {

@@ -4,12 +4,19 @@ use robot::Robot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::effects::mistake::{Mistake, joint_of, within};
+use crate::effects::mistake::{Mistake, by_kind, joint_of, within};
 use crate::effects::scenario_effect::ScenarioEffect;
 use crate::effects::surroundings::Surroundings;
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::Inject;
 use crate::mechanics::plant::Plant;
+
+/// Largest inertia of a joint that turns (kg m²).
+const MOST_TURNING: f64 = 100.0;
+
+/// Largest inertia of a joint that slides (kg): a rotor of 0.001 kg m² on a screw of lead `l` is `0.001 (2 pi / l)^2`,
+/// 395 kg for 10 mm and 1580 kg for 5 mm.
+const MOST_SLIDING: f64 = 1e4;
 
 /// Inertia of rotor and gear beyond that of the robot's description.
 ///
@@ -21,7 +28,7 @@ use crate::mechanics::plant::Plant;
 pub struct RotorInertia {
     /// The joint.
     pub joint: String,
-    /// What is added (kg m², seen at the joint; kg for a prismatic joint), up to 100; negative
+    /// What is added, seen at the joint: up to 100 kg m², up to 1e4 kg for a prismatic joint; negative
     /// down to what takes away all that the description says.
     pub inertia_kg_m2: f64,
 }
@@ -36,14 +43,18 @@ impl ScenarioEffect for RotorInertia {
     fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake> {
         let joint = joint_of(robot, &self.joint)?;
         let nominal = robot.links()[joint].actuator.rotor_inertia;
-        within("inertia_kg_m2", self.inertia_kg_m2, -nominal, 100.0)?;
+        within("inertia_kg_m2", self.inertia_kg_m2, -nominal, most(robot, joint))?;
         Ok(Box::new(Injected { joint, inertia: self.inertia_kg_m2 }))
     }
 
     fn draw(at: &Surroundings<'_>, share: f64, _: &mut ChaCha8Rng) -> Self {
         let inertia = share * at.torque_rms / at.acceleration_rms.max(1e-9);
-        Self { joint: at.joint_name(), inertia_kg_m2: inertia.min(100.0) }
+        Self { joint: at.joint_name(), inertia_kg_m2: inertia.min(most(at.robot, at.joint)) }
     }
+}
+
+fn most(robot: &Robot, joint: usize) -> f64 {
+    by_kind(robot, joint, MOST_TURNING, MOST_SLIDING)
 }
 
 struct Injected {

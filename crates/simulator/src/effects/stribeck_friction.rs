@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::effects::mistake::{Mistake, joint_of, within};
 use crate::effects::scenario_effect::ScenarioEffect;
-use crate::effects::surroundings::Surroundings;
+use crate::effects::surroundings::{MOST_DRY, Surroundings};
 use crate::effects::truth::Truth;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
 
@@ -47,8 +47,8 @@ impl ScenarioEffect for StribeckFriction {
 
     fn inject(&self, robot: &Robot) -> Result<Box<dyn Inject>, Mistake> {
         let joint = joint_of(robot, &self.joint)?;
-        within("coulomb_nm", self.coulomb_nm, 0.0, 1000.0)?;
-        within("breakaway_nm", self.breakaway_nm, self.coulomb_nm, 1000.0)?;
+        within("coulomb_nm", self.coulomb_nm, 0.0, MOST_DRY)?;
+        within("breakaway_nm", self.breakaway_nm, self.coulomb_nm, MOST_DRY)?;
         within("stribeck_velocity_rad_per_s", self.stribeck_velocity_rad_per_s, 1e-4, 10.0)?;
         let excess = self.breakaway_nm - self.coulomb_nm;
         let stribeck = Stribeck { excess, velocity: self.stribeck_velocity_rad_per_s };
@@ -57,11 +57,11 @@ impl ScenarioEffect for StribeckFriction {
 
     /// Breakaway at 1.2 to 2 times the Coulomb level, gone between 0.01 and 0.1 rad/s.
     fn draw(at: &Surroundings<'_>, share: f64, random: &mut ChaCha8Rng) -> Self {
-        let coulomb = share * at.torque_rms;
+        let coulomb = at.dry(share);
         Self {
             joint: at.joint_name(),
             coulomb_nm: coulomb,
-            breakaway_nm: coulomb * random.random_range(1.2..2.0),
+            breakaway_nm: (coulomb * random.random_range(1.2..2.0)).min(MOST_DRY),
             stribeck_velocity_rad_per_s: random.random_range(0.01..0.1),
         }
     }

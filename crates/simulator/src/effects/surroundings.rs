@@ -3,6 +3,9 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, UnitSphere};
 use robot::Robot;
 
+/// Largest dry friction of a drive (N m or N).
+pub(crate) const MOST_DRY: f64 = 1000.0;
+
 /// The joint at which an effect is drawn, with its motion and torque without the effect.
 #[derive(Debug, Clone, Copy)]
 pub struct Surroundings<'a> {
@@ -55,6 +58,11 @@ impl Surroundings<'_> {
             }
         }
         Self { joint: tip, ..*self }.link_name()
+    }
+
+    /// Dry friction of a share of the joint's torque, at most that of a drive (N m or N).
+    pub(crate) fn dry(&self, share: f64) -> f64 {
+        (share * self.torque_rms).min(MOST_DRY)
     }
 
     /// Magnitude of gravity (m/s²), at least 1, so that a payload can be sized for a weightless arm.
