@@ -65,6 +65,7 @@ def log_of(source, arm, scenario, rates, random, silent):
         "link_position": link[rows],
         "desired_position": np.array([one[0] for one in desired]),
         "desired_velocity": np.array([one[1] for one in desired]),
+        "desired_acceleration": np.array([one[2] for one in desired]),
     }
     # Stamps stay in order: a fifth of a period is the least distance of two.
     least = 0.2 * np.arange(len(rows)) / log_hz

@@ -40,7 +40,8 @@ class Reference:
         a3, a4, a5 = 10 * p - 4 * v + 0.5 * a, -15 * p + 7 * v - a, 6 * p - 3 * v + 0.5 * a
         q = a0 + x * (a1 + x * (a2 + x * (a3 + x * (a4 + x * a5))))
         qd = (a1 + x * (2 * a2 + x * (3 * a3 + x * (4 * a4 + x * 5 * a5)))) / h
-        return q, qd
+        qdd = (2 * a2 + x * (6 * a3 + x * (12 * a4 + x * 20 * a5))) / (h * h)
+        return q, qd, qdd
 
 
 class Sensors:
@@ -103,14 +104,14 @@ def follow(arm, reference, sensors, scenario, control_hz):
     step_s = period_s / substeps
     drives, source = arm.drives, scenario["sensors"].get("effort", "commanded")
     at_motor = scenario["sensors"].get("position", "motor") == "motor"
-    q, qd = reference.at(0.0)
+    q, qd, _ = reference.at(0.0)
     data = arm.start(q, qd, step_s)
     at_rest = np.all(np.abs(qd) <= 1e-9)
     lead_in = round(max(run.get("lead_in_s", 1.0) for run in scenario["run"]) * control_hz) if at_rest else 0
     before, rows = None, []
     for tick in range(-lead_in, round(reference.end_s() * control_hz) + 1):
         time_s = tick * period_s
-        q_ref, qd_ref = reference.at(max(time_s - arm.goal_delay_s, 0.0))
+        q_ref, qd_ref, _ = reference.at(max(time_s - arm.goal_delay_s, 0.0))
         truth = arm.observe(data)
         q, qd = (truth.motor_q, truth.motor_qd) if at_motor else (truth.q, truth.qd)
         link = truth.q
