@@ -137,6 +137,62 @@ fn log_info_reads_a_log_with_and_without_a_robot() {
     assert_eq!(value["files"][1]["repeats"], "run_0.csv");
 }
 
+/// The natural first look: a file whose columns name no joint, and nothing said of it.
+#[test]
+fn log_info_lists_the_columns_of_any_file() {
+    let folder = arm::folder(Gap::None);
+    let log = arm::log(0, Gap::None);
+    let numbered = log.replace("shoulder.", "a1.").replace("elbow.", "a2.");
+    let names = [("position", "q[K]"), ("velocity", "qd[K]"), ("effort", "tau[K]")];
+    let mut vectors = numbered.clone();
+    for (joint, place) in [("a1", "0"), ("a2", "1")] {
+        for (channel, column) in names {
+            vectors = vectors.replace(&format!("{joint}.{channel}"), &column.replace('K', place));
+        }
+    }
+    arm::write(folder.path(), "vectors.csv", &vectors);
+    let odd = vectors.replace("time", "stamp").replace("tau[", "load[");
+    arm::write(folder.path(), "odd.csv", &odd);
+    let told = run(folder.path(), &["log", "info", "vectors.csv", "odd.csv", "run_0.csv"]);
+    assert_eq!((told.code, told.err.as_str()), (0, ""));
+    for expected in [
+        "vectors.csv\n 6000 rows, 7 columns",
+        "--map numpy (arrays q, qd and tau over time), of 2 joints: --robot FILE reads them",
+        "odd.csv\n 6000 rows, 7 columns",
+        "load[1]",
+        "rises by 0.00500 a row",
+        "a column map says which column is what",
+        "run_0.csv\n 6000 rows, 30.0 s",
+    ] {
+        assert!(told.out.contains(expected), "{expected} is missing in\n{}", told.out);
+    }
+    let answer = run(folder.path(), &["log", "info", "vectors.csv", "--json"]);
+    let value: serde_json::Value = serde_json::from_str(&answer.out).unwrap();
+    let own = &value["by_columns"][0];
+    assert_eq!((own["map"].as_str(), own["joints"].as_u64()), (Some("numpy"), Some(2)));
+    assert_eq!(own["columns"].as_array().map(Vec::len), Some(7));
+    // With a robot it is refused, and the columns are listed as well.
+    let refused = run(folder.path(), &["log", "info", "odd.csv", "--robot", "arm.urdf"]);
+    assert_eq!(refused.code, 3);
+    assert!(refused.err.contains("its columns are stamp, q[0], "), "{}", refused.err);
+}
+
+#[test]
+fn log_info_tells_a_clock_in_other_units() {
+    let folder = arm::folder(Gap::None);
+    let log = arm::log(0, Gap::None);
+    let rows = log.lines().enumerate().map(|(k, line)| {
+        let (time, rest) = line.split_once(',').unwrap();
+        let time = time.parse::<f64>().map_or(time.to_owned(), |t| format!("{:.0}", 1e9 * t));
+        if k == 0 { format!("{line}\n") } else { format!("{time},{rest}\n") }
+    });
+    arm::write(folder.path(), "ns.csv", &rows.collect::<String>());
+    let told = run(folder.path(), &["log", "info", "ns.csv"]);
+    assert!(told.out.contains("warning: time looks like ns"), "{}", told.out);
+    let told = run(folder.path(), &["log", "info", "run_0.csv"]);
+    assert!(!told.out.contains("time looks like"), "{}", told.out);
+}
+
 #[test]
 fn a_reader_that_has_gone_is_no_error() {
     let (reader, writer) = std::io::pipe().unwrap();

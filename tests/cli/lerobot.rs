@@ -43,6 +43,21 @@ fn a_friction_is_found_in_a_dataset_as_it_is_in_files() {
     }
 }
 
+/// Positions in per cent of the calibrated range, which LeRobot writes by default, and which no unit converts.
+#[test]
+fn positions_that_are_no_radians_may_be_degrees_or_normalised() {
+    let folder = arm::folder(Gap::None);
+    let mut runs = runs(folder.path());
+    let joints = runs.iter_mut().flat_map(|run| &mut run.joints);
+    joints.for_each(|joint| joint.position.iter_mut().for_each(|q| *q *= 60.0));
+    write(&folder.path().join("set"), &runs, Layout::OneFile, &[]);
+    let refused = run(folder.path(), &["log", "info", "set", "--robot", "arm.urdf"]);
+    assert_eq!(refused.code, 3, "{refused:?}");
+    for expected in ["unit = \"deg\"", "may be normalised instead", "scale = (b - a) / 200"] {
+        assert!(refused.err.contains(expected), "{expected} is missing in\n{}", refused.err);
+    }
+}
+
 #[test]
 fn episodes_are_chosen_and_one_that_is_not_there_is_told() {
     let folder = arm::folder(Gap::None);

@@ -165,7 +165,7 @@ fn no_effort_column() {
     assert_eq!(
         file.message(&two_joints()),
         "run.csv: there is no column j1.effort, the effort of joint j1 was expected there; \
-         did you mean j1.efort?"
+         its columns are time, j1.position, j1.efort, j2.position, j2.effort; did you mean j1.efort?"
     );
     let options = ReadOptions { effort: "effort_sensor", ..ReadOptions::default() };
     let file = Scratch::new("run.csv", format!("{HEADER}\n0,1,2,3,4\n1,1,2,3,4\n"));
@@ -179,7 +179,8 @@ fn a_joint_without_an_effort_beside_one_that_has_it_is_named() {
     let file = Scratch::new("run.csv", format!("{header}\n0,1,2,3,4\n1,1,2,3,4\n"));
     assert_eq!(
         file.message(&two_joints()),
-        "run.csv: joint j2 has no effort: there is no column j2.effort"
+        "run.csv: joint j2 has no effort: there is no column j2.effort; \
+         its columns are time, j1.position, j1.effort, j2.position, j2.velocity"
     );
     let file = Scratch::new("run.csv", format!("{HEADER}\n0,1,2,3,NaN\n1,1,2,3,NaN\n"));
     let Err(LogError::EffortAbsent { joint, what, others, .. }) = file.read(&two_joints()) else {
@@ -199,7 +200,7 @@ fn no_time_column() {
     assert_eq!(
         file.message(&two_joints()),
         "run.csv: there is no column time, the time of every row (s) was expected; \
-         did you mean Time?"
+         its columns are Time, j1.position, j1.effort; did you mean Time?"
     );
 }
 
@@ -373,6 +374,7 @@ fn column_map_that_names_a_column_the_log_does_not_have() {
     let options = ReadOptions { map: Some(&map), ..ReadOptions::default() };
     assert_eq!(
         file.told(read_run(&file.path, &two_joints(), &options)),
-        "run.csv: there is no column speed, the column map names it for the velocity of joint j1"
+        "run.csv: there is no column speed, the column map names it for the velocity of joint j1; \
+         its columns are time, j1.position, j1.effort, j2.position, j2.effort"
     );
 }

@@ -53,7 +53,8 @@ fn joints_that_no_message_holds_are_told() {
     let arm = robot(&[("j1", JointKind::Revolute), ("finger", JointKind::Revolute)]);
     assert_eq!(
         Scratch::new("run", golden("mcap_none.mcap")).message(&arm),
-        "run: joint finger has no effort: there is no column finger.effort"
+        "run: joint finger has no effort: there is no column finger.effort; \
+         its columns are time, j1.position, j2.position, j1.velocity, j2.velocity, j1.effort, j2.effort, finger.position"
     );
     let names = ["j1", "j3"].map(|name| (name, JointKind::Revolute));
     let told = Scratch::new("run", golden("mcap_none.mcap")).message(&robot(&names));

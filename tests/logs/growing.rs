@@ -83,8 +83,8 @@ fn a_log_without_a_whole_row_is_a_clear_error() {
     };
     assert_eq!(cut(header.len()), "run.csv: 0 rows of data, at least 2 were expected");
     let message = cut("time,j1.position,j2.pos".len());
-    let expected =
-        "run.csv: there is no column j1.effort, the effort of joint j1 was expected there";
+    let expected = "run.csv: there is no column j1.effort, the effort of joint j1 was expected there; \
+         its columns are time, j1.position, j2.pos";
     assert_eq!(message, expected);
 }
 

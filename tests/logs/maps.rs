@@ -1,9 +1,9 @@
 //! Column maps by pattern, and those of programs that are known.
 
-use logs::{ColumnMap, LogError, ReadOptions, Run, read_run, recognise};
+use logs::{ColumnMap, LogError, ReadOptions, Run, file_overview, read_run, recognise};
 use robot::JointKind;
 
-use crate::support::{Scratch, robot, two_joints};
+use crate::support::{Scratch, golden, robot, two_joints};
 
 const ROWS: &str = "0,1,2,3,4,5,6\n0.1,1.1,2.1,3.1,4.1,5.1,6.1\n";
 
@@ -89,6 +89,61 @@ fn files_of_known_programs_are_recognised() {
     }
 }
 
+/// What `rostopic echo -p` writes: names in every row, a header behind a percent sign, times in ns.
+#[test]
+fn a_list_of_joints_in_the_rows_names_the_columns() {
+    let header = "%time,field.header.stamp,field.name0,field.name1,field.position0,field.position1,\
+                  field.effort0,field.effort1";
+    let file = |rows: &str| Scratch::new("run.csv", format!("{header}\n{rows}"));
+    let rows = "17,1000000000,j2,j1,2,1,5,4\n18,1100000000,j2,j1,2.1,1.1,5.1,4.1\n";
+    let arm = two_joints();
+    let of = |rows: &str| {
+        let file = file(rows);
+        let found = recognise(&file.path, &arm, None, &ReadOptions::default()).unwrap().unwrap();
+        let options = ReadOptions { map: Some(&found.map), ..ReadOptions::default() };
+        (found.name, read_run(&file.path, &arm, &options).map_err(|e| file.told::<Run>(Err(e))))
+    };
+    let (name, run) = of(rows);
+    let run = run.unwrap();
+    assert_eq!((name, first(&run)), ("rostopic", (2.0, 4.0)));
+    assert!((run.time[1] - run.time[0] - 0.1).abs() < 1e-6, "{:?}", run.time);
+    // Another order of the joints in a later row.
+    let told = of(&rows.replace("18,1100000000,j2,j1", "18,1100000000,j1,j2")).1.unwrap_err();
+    assert!(told.contains("row 2, column field.name0: found j1, j2 was expected"), "{told}");
+}
+
+#[test]
+fn joint_states_of_plotjuggler_may_be_under_any_topic() {
+    let named = |topic: &str| {
+        format!(
+            "__time,{topic}/j1/position,{topic}/j2/position,a,b,{topic}/j1/effort,{topic}/j2/effort"
+        )
+    };
+    for topic in ["/joint_states", "/ur/joint_states", "/left/arm/states"] {
+        let (own, run) = found(&named(topic), None).unwrap();
+        assert_eq!((own, first(&run)), ("plotjuggler", (2.0, 5.0)), "{topic}");
+    }
+    let other = named("/left").replace("/left/j2/position", "/right/j2/position");
+    assert!(found(&other, None).is_none(), "joints of two topics");
+    for strange in ["/a\"b", "/a\\b"] {
+        let quoted = named(strange).replace('"', "\"\"").replace(',', "\",\"");
+        assert!(found(&format!("\"{quoted}\""), None).is_none(), "{strange}");
+    }
+}
+
+#[test]
+fn vectors_of_fewer_joints_than_the_robot_has_are_told_with_both_counts() {
+    let joints = ["j1", "j2", "finger"].map(|name| (name, JointKind::Revolute));
+    let arm = robot(&joints);
+    let file = Scratch::new("run.csv", format!("time,q[0],q[1],dq[0],dq[1],tau[0],tau[1]\n{ROWS}"));
+    let refused = recognise(&file.path, &arm, None, &ReadOptions::default()).unwrap_err();
+    assert_eq!(
+        file.told::<Run>(Err(refused)),
+        "run.csv: it has arrays q, dq and tau over time, of 2 joints each (q[{i}]), and the robot has 3 joints: \
+         j1, j2, finger"
+    );
+}
+
 #[test]
 fn what_is_usual_or_has_no_order_is_not_guessed() {
     assert!(found("time,j1.position,j2.position,q[0],q[1],tau_J[0],tau_J[1]", None).is_none());
@@ -107,4 +162,38 @@ fn a_pattern_has_units_that_fit_every_joint() {
     let map = ColumnMap::load(&Scratch::new("map.toml", map).path).unwrap();
     let message = map.for_robot(&arm).unwrap_err().to_string();
     assert!(message.contains("joint.slide.position: found the unit \"deg\""), "{message}");
+}
+
+/// The columns of every format, whatever they are called, and the map that fits them.
+#[test]
+fn a_file_is_told_by_its_columns() {
+    let of = |name: &str, bytes: Vec<u8>| {
+        let file = Scratch::new(name, bytes);
+        file_overview(&file.path, &ReadOptions::default()).unwrap()
+    };
+    for name in [
+        "hdf5_plain.h5",
+        "matlab_plain.mat",
+        "matlab73_plain.mat",
+        "mcap_zstd.mcap",
+        "numpy_plain.npz",
+        "numpy_turned.npz",
+        "numpy_columns.npy",
+        "packed_log.csv.gz",
+        "sqlite_bag.db3",
+    ] {
+        let overview = of(name, golden(name));
+        assert!(overview.rows > 1, "{name}");
+        let numbers = overview.columns.iter().filter(|column| column.range.is_some()).count();
+        assert!(numbers > 2, "{name}: {:?}", overview.columns);
+        assert!(overview.columns.iter().any(|column| column.rises_by.is_some()), "{name}");
+    }
+    let text = "t,q[0],q[1],qd[0],qd[1],tau[0],tau[1],note\n0,1,2,3,4,5,6,a\n0.1,1,2,3,4,5,6,b\n";
+    let overview = of("run", text.into());
+    let fitting = overview.fitting.unwrap();
+    assert_eq!((fitting.name, fitting.count, fitting.joints.len()), ("numpy", 2, 0));
+    let last = overview.columns.last().unwrap();
+    assert_eq!((last.name.as_str(), last.range, last.rises_by), ("note", None, None));
+    assert_eq!(overview.columns[0].range, Some((0.0, 0.1)));
+    assert_eq!(of("run", "a,b\n1,2\n3,4\n".into()).fitting, None);
 }

@@ -61,7 +61,7 @@ fn a_single_array_has_columns_without_names() {
 fn what_is_no_table_is_told() {
     let npz = |map: &str| read(golden("numpy_plain.npz"), map).unwrap_err();
     let expected = "run: there is no column q[2], the column map names it for the position of \
-         joint j2; did you mean q[0]?";
+         joint j2; its columns are time, q[0], q[1], tau[0], tau[1], short; did you mean q[0]?";
     let told = npz(&MAP.replace("q[1]", "q[2]"));
     assert_eq!(told.replace("q[1]?", "q[0]?"), expected);
     let expected = "run: column short has 3 values, 5 were expected as in time";

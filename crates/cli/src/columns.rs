@@ -21,7 +21,7 @@ const HEADING: &str = "How logs are read";
 #[derive(Debug, Clone, clap::Args)]
 pub struct ColumnArguments {
     /// Names and units of columns that are called otherwise: a file (TOML), or ur, franka,
-    /// plotjuggler, lerobot or numpy for what these programs write
+    /// plotjuggler, lerobot, rostopic or numpy for what these programs write
     #[arg(long, help_heading = HEADING, value_name = "FILE|NAME")]
     pub map: Option<PathBuf>,
     /// The effort is read from the columns `<joint>.COLUMN` [default: effort]

@@ -197,6 +197,12 @@ const LEFT_OUT: &str =
 
 const WITHOUT_EFFORT: &str = "takes the joints that have one; the others count as locked at zero or as a robot.toml says, which is right where they stood";
 
+const NO_JOINT_STATES: &str = "sensor_msgs/msg/JointState in CDR is read, which /joint_states is in ROS 2: record that topic, or write its positions and efforts as CSV and give a column map (--map)";
+
+const DEGREES_OR_NORMALISED: &str = "in the column map: position = { column = \"...\", unit = \"deg\" } for degrees. A dataset of LeRobot may be normalised instead, -100 to 100 over the range of the calibration from a to b (rad): then scale = (b - a) / 200 and offset = (a + b) / 2, a list with one number a joint each, of position and desired_position";
+
+const OTHERS_LOCKED: &str = "the other joints are locked at zero or as a robot.toml says";
+
 const MAP: &str = "a column map (--map) says where a file with other names has its signals, --effort picks the effort column";
 
 /// What to do about a log.
@@ -208,8 +214,12 @@ fn of_log(log: &LogError) -> Option<&'static str> {
         LogError::JointAbsent { .. }
         | LogError::File(FormatError::NoColumn { .. })
         | LogError::NoNames { .. } => Some(MAP),
+        LogError::File(FormatError::NoTopic { topic: None, .. }) => Some(NO_JOINT_STATES),
         LogError::File(FormatError::NoTopic { .. } | FormatError::SeveralTopics { .. }) => {
             Some("--topic NAME picks the topic whose joint states are read")
+        }
+        LogError::LooksLikeDegrees { path, found, .. } if path.is_dir() && found.abs() <= 100.0 => {
+            Some(DEGREES_OR_NORMALISED)
         }
         LogError::LooksLikeDegrees { .. } => {
             Some("in the column map: position = { column = \"...\", unit = \"deg\" }")
@@ -295,6 +305,13 @@ impl CliError {
             }
             Some(LogError::EffortAbsent { others, .. }) => {
                 Some(Cow::Owned(format!("--joints {} {WITHOUT_EFFORT}; {MAP}", others.join(","))))
+            }
+            Some(LogError::OtherCount { found, joints, .. }) => {
+                let first = joints[..joints.len().min(*found)].join(",");
+                let help = format!(
+                    "--joints {first}, if these are the columns in their order; {OTHERS_LOCKED}"
+                );
+                Some(Cow::Owned(help))
             }
             _ => self.advice().map(Cow::Borrowed),
         }

@@ -24,7 +24,7 @@ pub use common::damage::Damage;
 pub use common::error::FormatError;
 pub use common::excerpt::{Excerpt, ExcerptFilter, TimeScale};
 pub use common::table::{Needed, Table};
-pub use common::words::{list, suggestion};
+pub use common::words::{columns, list, suggestion};
 pub use file_format::{Opened, Request};
 pub use formats::lerobot::dataset::LerobotDataset;
 pub use open::{column_names, open};

@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use log_formats::{Excerpt, FormatError, list, suggestion};
+use log_formats::{Excerpt, FormatError, columns, list, suggestion};
 
 use crate::runs::run::of_run;
 
@@ -31,24 +31,41 @@ pub enum LogError {
         columns: usize,
     },
     /// A joint of the robot is not in the log.
-    #[error("{}: joint {joint} of the robot is not in the log, a column {column} was expected; the log has {}{}",
-        path.display(), list(found), suggestion(nearest.as_deref()))]
+    #[error("{}: joint {joint} of the robot is not in the log, a column {column} was expected; the log has {}{}{}",
+        path.display(), list(found), columns(other), suggestion(nearest.as_deref()))]
     JointAbsent {
         /// The file.
         path: PathBuf,
         /// The robot's joint.
-        joint: String,
+        joint: Box<str>,
         /// The column that was expected.
         column: Box<str>,
         /// The joints of the log.
         found: Box<[String]>,
+        /// The columns of a log without a joint.
+        other: Box<[String]>,
         /// The robot's joints that are in the log.
         shared: Box<[String]>,
         /// The joint of the log with the most similar name, among those that are not in the robot.
-        nearest: Option<String>,
+        nearest: Option<Box<str>>,
+    },
+    /// A file has vectors of another length than the robot has joints.
+    #[error("{}: it has {words}, of {found} joints each ({pattern}), and the robot has {} joints: {}",
+        path.display(), joints.len(), list(joints))]
+    OtherCount {
+        /// The file.
+        path: PathBuf,
+        /// The columns, such as `q[{i}]`.
+        pattern: Box<str>,
+        /// The preset, in words.
+        words: &'static str,
+        /// Number of columns.
+        found: usize,
+        /// The joints of the robot.
+        joints: Box<[String]>,
     },
     /// A joint has positions and no effort, which others have.
-    #[error("{}: joint {joint} has no effort: {what}", path.display())]
+    #[error("{}: joint {joint} has no effort: {what}{}", path.display(), columns(found))]
     EffortAbsent {
         /// The file.
         path: PathBuf,
@@ -58,6 +75,8 @@ pub enum LogError {
         what: Box<str>,
         /// The joints that have an effort.
         others: Box<[String]>,
+        /// The columns of the file, where the effort has none.
+        found: Box<[String]>,
     },
     /// There are too few rows.
     #[error("{}: {found} rows of data, at least {expected} were expected", path.display())]

@@ -1,11 +1,12 @@
 use std::path::{Path, PathBuf};
 
-use logs::{Channel, JointInfo, LogError, LogInfo, ReadOptions, Run};
+use logs::{Channel, FileOverview, JointInfo, LogError, LogInfo, ReadOptions, Run};
 use robot::{Actuator, Inertia, Joint, JointKind, Limits, Link, Robot};
 use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 
 use crate::columns::ColumnArguments;
+use crate::commands::log_columns::{self, ColumnsRecord};
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::input::PartArguments;
@@ -45,11 +46,22 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         selected.push((path, arguments.columns.episodes_of(path)?));
     }
     let each = selected.iter().flat_map(|(path, runs)| runs.iter().map(move |e| (*path, e)));
+    let mut unnamed = Vec::new();
     for (path, episode) in each {
         let robot = match &described {
             Some(loaded) => loaded.robot.clone(),
             None if arguments.part.joints.is_empty() => {
-                robot_from_columns(path, &reader.options(episode))?
+                let options = reader.options(episode);
+                match robot_from_columns(path, &options) {
+                    Err(error) if log_columns::is_about_names(&error) => {
+                        // An episode has the columns of any other.
+                        if unnamed.iter().all(|(own, _)| own != path) {
+                            unnamed.push((path.clone(), logs::file_overview(path, &options)?));
+                        }
+                        continue;
+                    }
+                    found => found?,
+                }
             }
             None => robot_of(&arguments.part.joints)?,
         };
@@ -64,9 +76,16 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     }
     if arguments.json {
         let files: Vec<FileInfo> = infos.iter().map(FileInfo::new).collect();
-        print_json(&Document { schema: SCHEMA, files })?;
+        let record = |(path, overview): &(PathBuf, FileOverview)| {
+            ColumnsRecord::new(&display_path(path), overview)
+        };
+        let by_columns = unnamed.iter().map(record).collect();
+        print_json(&Document { schema: SCHEMA, files, by_columns })?;
     } else {
-        let blocks: Vec<String> = infos.iter().map(text).collect();
+        let named = infos.iter().map(text);
+        let by_columns =
+            unnamed.iter().map(|(path, own)| log_columns::text(&display_path(path), own));
+        let blocks: Vec<String> = named.chain(by_columns).collect();
         print(&blocks.join("\n"))?;
     }
     Ok(ExitStatus::Good)
@@ -147,6 +166,12 @@ fn text(Info { path, info, repeats }: &Info) -> String {
     };
     note("joints that the robot does not have", &info.unknown_joints);
     note("further columns", &info.extra);
+    if let Some(unit) = suspected_unit_of_time(info) {
+        text.push_str(&format!(
+            "warning: time looks like {unit}: velocities are those of positions over seconds; a column map says so, \
+             time = {{ column = \"...\", unit = \"{unit}\" }}\n"
+        ));
+    }
     if info.is_torn {
         text.push_str("warning: the last row was cut off while it was written, it is left out\n");
     }
@@ -157,6 +182,18 @@ fn text(Info { path, info, repeats }: &Info) -> String {
         text.push_str(&format!("warning: the same samples as {earlier}\n"));
     }
     text
+}
+
+/// The unit in which the velocities of all joints that move are the derivatives of their positions, where it is not s.
+fn suspected_unit_of_time(info: &LogInfo) -> Option<&'static str> {
+    let mut scales = info.joints.iter().filter(|j| j.moves).filter_map(|j| j.velocity_agreement);
+    let units = [(1e3, "ms"), (1e6, "us"), (1e9, "ns")];
+    let of = |scale: f64| {
+        let found = units.into_iter().find(|(factor, _)| (scale / factor - 1.0).abs() < 0.1);
+        found.map(|(_, unit)| unit)
+    };
+    let unit = of(scales.next()?.scale)?;
+    scales.all(|other| of(other.scale) == Some(unit)).then_some(unit)
 }
 
 fn row(joint: &JointInfo) -> Vec<String> {
@@ -217,6 +254,8 @@ pub fn schema() -> Schema {
 struct Document<'a> {
     schema: &'static str,
     files: Vec<FileInfo<'a>>,
+    /// Files whose columns name no joint, where no robot was given.
+    by_columns: Vec<ColumnsRecord>,
 }
 
 #[derive(Serialize, JsonSchema)]

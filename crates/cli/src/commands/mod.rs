@@ -8,6 +8,7 @@ pub mod diagnose;
 pub mod explain;
 pub mod export;
 pub mod learn;
+pub mod log_columns;
 pub mod log_info;
 pub mod man;
 pub mod replay;

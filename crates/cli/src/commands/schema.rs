@@ -95,6 +95,18 @@ impl FileKind {
         }
     }
 
+    /// What stands below the keys on the page of the file.
+    fn more(self) -> String {
+        match self {
+            Self::Map => format!(
+                "\n## Maps with a name\n\nA file without the usual names that has all columns of one of these maps is read so, and the \
+                 program says it; PlotJuggler's columns may be under any topic. `plumbline log info FILE` tells which map a file fits.\n\n{}",
+                logs::preset_table()
+            ),
+            _ => String::new(),
+        }
+    }
+
     /// The schema as the text of a file.
     ///
     /// # Errors
@@ -108,7 +120,7 @@ impl FileKind {
 /// Prints the JSON schema of a file, which editors complete and check keys with, or the list of all.
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     match arguments.name {
-        Some(kind) if arguments.markdown => print(&page::page(&kind.schema()))?,
+        Some(kind) if arguments.markdown => print(&(page::page(&kind.schema()) + &kind.more()))?,
         Some(kind) => print(&kind.text()?)?,
         None => print(&list())?,
     }

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use crate::common::{
     allowance::Exceeded,
     unread_kinds::UnreadKind,
-    words::{list, suggestion},
+    words::{columns, list, suggestion},
 };
 
 /// Why a file cannot be read.
@@ -145,7 +145,7 @@ pub enum FormatError {
         column: String,
     },
     /// A needed column is missing.
-    #[error("{}: there is no column {column}, {purpose}{}", path.display(), suggestion(nearest.as_deref()))]
+    #[error("{}: there is no column {column}, {purpose}{}{}", path.display(), columns(found), suggestion(nearest.as_deref()))]
     NoColumn {
         /// The file.
         path: PathBuf,
@@ -155,6 +155,8 @@ pub enum FormatError {
         purpose: String,
         /// The column with the most similar name.
         nearest: Option<String>,
+        /// The columns of the file.
+        found: Box<[String]>,
     },
     /// A row of a CSV file has too few or too many fields.
     #[error("{}: row {row} has {found} fields, {expected} were expected as in the header", path.display())]

@@ -12,7 +12,7 @@ use serde::Deserialize;
 use crate::{
     error::LogError,
     naming::{
-        map_entry::{MappedColumn, Pattern},
+        map_entry::{MappedColumn, Names, Pattern},
         nearest::nearest,
         unit::Quantity,
     },
@@ -219,6 +219,15 @@ impl ColumnMap {
     /// The entry for a channel of a joint.
     pub fn channel(&self, joint: &str, channel: Channel) -> Option<&MappedColumn> {
         self.joint.get(joint)?.get(&channel)
+    }
+
+    /// The pattern of a channel for all joints, where it is one.
+    pub(crate) fn pattern(&self, channel: Channel) -> Option<&str> {
+        let (_, pattern) = self.patterns.iter().find(|(own, _)| *own == channel)?;
+        match &pattern.column {
+            Names::Pattern(pattern) => Some(pattern),
+            Names::Each(_) => None,
+        }
     }
 
     /// The map without the pattern of one channel, such as a velocity that was not recorded.

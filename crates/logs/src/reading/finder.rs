@@ -1,4 +1,4 @@
-use std::path::Path;
+use std::{collections::BTreeSet, path::Path};
 
 use log_formats::FormatError;
 use robot::Robot;
@@ -36,14 +36,14 @@ impl<'a> Finder<'_, 'a> {
                     channel.suffix(),
                     self.other_effort(joint, channel)
                 );
-                return Err(self.no_column(&source.column, &purpose));
+                return Err(self.no_column(&source.column, &purpose, robot, Some(channel)));
             } else if channel.is_required() {
                 return Err(self.absent(joint, channel, source.column, robot));
             } else if is_computed && channel == Channel::DesiredPosition {
                 let purpose = format!(
                     "the goal of joint {joint}, which effort_source in robot.toml computes its effort from, was expected there"
                 );
-                return Err(self.no_column(&source.column, &purpose));
+                return Err(self.no_column(&source.column, &purpose, robot, Some(channel)));
             }
         }
         Ok(sources)
@@ -100,9 +100,11 @@ impl<'a> Finder<'_, 'a> {
             if channel == Channel::Effort && nearest.is_none() && !others.is_empty() {
                 let hint = self.other_effort(joint, channel);
                 let what = format!("there is no column {column}{hint}").into();
-                return LogError::EffortAbsent { path, joint: joint.to_owned(), what, others };
+                let (joint, found) = (joint.to_owned(), self.names.into());
+                return LogError::EffortAbsent { path, joint, what, others, found };
             }
-            return FormatError::NoColumn { path, column, purpose, nearest }.into();
+            let found = self.names.into();
+            return FormatError::NoColumn { path, column, purpose, nearest, found }.into();
         }
         let found: Box<[String]> = self
             .names
@@ -117,11 +119,12 @@ impl<'a> Finder<'_, 'a> {
         let shared = robot.joint_names().filter(has).map(str::to_owned).collect();
         LogError::JointAbsent {
             path: self.path.to_owned(),
-            joint: joint.to_owned(),
+            joint: joint.into(),
             column: column.into(),
             shared,
+            other: if found.is_empty() { self.names.into() } else { Box::default() },
             found,
-            nearest,
+            nearest: nearest.map(Into::into),
         }
     }
 
@@ -135,15 +138,29 @@ impl<'a> Finder<'_, 'a> {
         LogError::NoNames { path: self.path.to_owned(), columns: self.names.len() }
     }
 
-    pub(crate) fn no_column(&self, column: &str, purpose: &str) -> LogError {
+    /// A column of a channel, or else of time, that is missing; the column of another channel is no misspelling of it.
+    pub(crate) fn no_column(
+        &self,
+        column: &str,
+        purpose: &str,
+        robot: &Robot,
+        channel: Option<Channel>,
+    ) -> LogError {
         if self.is_unnamed {
             return self.no_names();
         }
+        let signals = robot.joint_names().flat_map(|joint| {
+            let others = Channel::ALL.into_iter().filter(|other| Some(*other) != channel);
+            others.map(|other| self.source(joint, other).column)
+        });
+        let signals: BTreeSet<String> = signals.collect();
+        let unread = self.names.iter().filter(|name| !signals.contains(*name));
         FormatError::NoColumn {
             path: self.path.to_owned(),
             column: column.to_owned(),
             purpose: purpose.to_owned(),
-            nearest: nearest(column, self.names.iter().map(String::as_str)),
+            nearest: nearest(column, unread.map(String::as_str)),
+            found: self.names.into(),
         }
         .into()
     }

@@ -2,6 +2,7 @@
 
 pub(crate) mod finder;
 pub(crate) mod options;
+pub(crate) mod overview;
 pub(crate) mod plan;
 pub(crate) mod position_loop;
 pub(crate) mod presets;

@@ -46,7 +46,8 @@ impl<'a> Plan<'a> {
         let mapped = options.map.and_then(ColumnMap::time);
         let column = options.time().to_owned();
         if !names.contains(&column) {
-            return Err(finder.no_column(&column, "the time of every row (s) was expected"));
+            let purpose = "the time of every row (s) was expected";
+            return Err(finder.no_column(&column, purpose, robot, None));
         }
         let joints: Result<_, _> =
             robot.joint_names().map(|joint| finder.joint(joint, robot)).collect();
@@ -135,7 +136,8 @@ impl<'a> Plan<'a> {
         match absent {
             Some((joint, what)) if !others.is_empty() => {
                 let (path, others) = (self.path.clone(), others.into());
-                Err(LogError::EffortAbsent { path, joint, what, others })
+                let found = Box::default();
+                Err(LogError::EffortAbsent { path, joint, what, others, found })
             }
             _ => Ok(()),
         }

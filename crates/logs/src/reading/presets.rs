@@ -1,4 +1,4 @@
-use std::path::Path;
+use std::{borrow::Cow, path::Path};
 
 use log_formats::{Damage, column_names, open};
 use robot::Robot;
@@ -20,7 +20,7 @@ struct Preset {
 }
 
 /// Column maps of files that other programs write. Of two maps with one name the more complete one is first.
-const PRESETS: [Preset; 11] = [
+const PRESETS: [Preset; 12] = [
     Preset {
         name: "ur",
         words: "RTDE of Universal Robots, efforts in N m",
@@ -76,6 +76,14 @@ const PRESETS: [Preset; 11] = [
         is_certain: false,
     },
     Preset {
+        name: "rostopic",
+        words: "joint states of rostopic echo -p, joints by name",
+        text: "time = { column = \"field.header.stamp\", unit = \"ns\" }\n\
+               position = \"field.position[{joint}]\"\nvelocity = \"field.velocity[{joint}]\"\n\
+               effort = \"field.effort[{joint}]\"\n",
+        is_certain: true,
+    },
+    Preset {
         name: "numpy",
         words: "arrays q, dq and tau over time",
         text: "position = \"q[{i}]\"\nvelocity = \"dq[{i}]\"\neffort = \"tau[{i}]\"\n",
@@ -102,6 +110,34 @@ const PRESETS: [Preset; 11] = [
     },
 ];
 
+/// The topic of joint states in the presets of PlotJuggler.
+const TOPIC: &str = "/joint_states";
+
+impl Preset {
+    /// The map, with the topic that the columns of a file are under.
+    fn map(&self, names: &[String]) -> Result<ColumnMap, LogError> {
+        let text = match topic(names).filter(|_| self.text.contains(TOPIC)) {
+            Some(topic) => Cow::Owned(self.text.replace(TOPIC, topic)),
+            None => Cow::Borrowed(self.text),
+        };
+        ColumnMap::from_text(self.name, &text)
+    }
+}
+
+/// The only topic, such as `/arm/joint_states`, with a column `TOPIC/JOINT/position` or `TOPIC/position[0]`. Names that a
+/// TOML string cannot hold as they are count as none.
+fn topic(names: &[String]) -> Option<&str> {
+    let mut topics = names.iter().filter_map(|name| {
+        let of_joint =
+            || name.strip_suffix("/position").and_then(|own| Some(own.rsplit_once('/')?.0));
+        name.strip_suffix("/position[0]").or_else(of_joint)
+    });
+    let first = topics.next()?;
+    let is_plain =
+        first.starts_with('/') && !first.contains(['"', '\\']) && !first.contains(char::is_control);
+    (is_plain && topics.all(|topic| topic == first)).then_some(first)
+}
+
 /// A preset column map that matches the columns of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recognised {
@@ -113,11 +149,87 @@ pub struct Recognised {
     pub map: ColumnMap,
 }
 
+/// A preset column map whose columns a file has, whatever the robot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fitting {
+    /// Name of the preset.
+    pub name: &'static str,
+    /// Description of its columns, in words.
+    pub words: &'static str,
+    /// Its columns of positions, such as `q[{i}]`.
+    pub pattern: String,
+    /// Number of joints.
+    pub count: usize,
+    /// Their names; none where columns are counted.
+    pub joints: Vec<String>,
+    /// Whether a file is read so without the name of the preset.
+    pub is_certain: bool,
+}
+
+/// The first preset that has columns of time, positions, and efforts or goals among these; one with its velocities before
+/// one without.
+///
+/// # Errors
+///
+/// [`LogError::Map`] of a preset.
+pub(crate) fn fitting(names: &[String]) -> Result<Option<Fitting>, LogError> {
+    let mut without_velocity = None;
+    for preset in &PRESETS {
+        let (map, Preset { name, words, is_certain, .. }) = (preset.map(names)?, preset);
+        let pattern = |channel| map.pattern(channel);
+        let others = [Channel::Effort, Channel::DesiredPosition].into_iter().filter_map(pattern);
+        let others: Vec<&str> = others.collect();
+        let Some(position) = pattern(Channel::Position) else { continue };
+        let time = map.time().map_or("time", |time| &time.column);
+        let has = |place: &str, with: &str| {
+            let filled = |pattern: &str| names.contains(&pattern.replace(place, with));
+            filled(position) && others.iter().any(|pattern| filled(pattern))
+        };
+        let mut joints = Vec::new();
+        if let Some((before, behind)) = position.split_once("{joint}") {
+            let own = |name: &'_ String| {
+                let joint = name.strip_prefix(before)?.strip_suffix(behind)?;
+                let is_name = joint.parse::<u64>().is_err() && has("{joint}", joint);
+                is_name.then(|| joint.to_owned())
+            };
+            joints = names.iter().filter_map(own).collect();
+        }
+        let counted = (0..names.len()).take_while(|i| has("{i}", &i.to_string())).count();
+        let count = if position.contains("{i}") { counted } else { joints.len() };
+        if count > 0 && names.iter().any(|own| own == time) {
+            let pattern = position.to_owned();
+            let is_certain = *is_certain;
+            let first = joints.first().map_or("", String::as_str);
+            let has_velocity = map.pattern(Channel::Velocity).is_some_and(|pattern| {
+                names.contains(&pattern.replace("{i}", "0").replace("{joint}", first))
+            });
+            let found = Fitting { name, words, pattern, count, joints, is_certain };
+            if has_velocity {
+                return Ok(Some(found));
+            }
+            without_velocity = without_velocity.or(Some(found));
+        }
+    }
+    Ok(without_velocity)
+}
+
 /// Names of the presets.
 pub fn preset_names() -> Vec<&'static str> {
     let mut names: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
     names.dedup();
     names
+}
+
+/// The presets as a table in Markdown: name, program, columns, and whether a file is read so without `--map`.
+pub fn preset_table() -> String {
+    let mut table =
+        "| `--map` | of | columns | read so without `--map` |\n|---|---|---|---|\n".to_owned();
+    for Preset { name, words, text, is_certain } in &PRESETS {
+        let columns = text.trim_end().replace('\n', "<br>");
+        let is_certain = if *is_certain { "yes" } else { "no: no name tells the order" };
+        table.push_str(&format!("| `{name}` | {words} | {columns} | {is_certain} |\n"));
+    }
+    table
 }
 
 /// Finds the preset whose columns of time, positions and efforts a file has for all joints of a robot.
@@ -128,7 +240,8 @@ pub fn preset_names() -> Vec<&'static str> {
 ///
 /// # Errors
 ///
-/// With a `name`, the errors of opening the file. In every case those of reading its column names.
+/// With a `name`, the errors of opening the file. In every case those of reading its column names. Without a name
+/// [`LogError::OtherCount`] where the file has the columns of a preset for another number of joints.
 pub fn recognise(
     path: &Path,
     robot: &Robot,
@@ -136,9 +249,10 @@ pub fn recognise(
     asked: &ReadOptions,
 ) -> Result<Option<Recognised>, LogError> {
     let (mut first, mut without_velocity, mut without_effort) = (None, None, None);
+    let mut columns = Vec::new();
     for preset in PRESETS.iter().filter(|p| name.map_or(p.is_certain, |name| p.name == name)) {
-        let map = ColumnMap::from_text(preset.name, preset.text)?;
-        let options = ReadOptions { map: Some(&map), ..*asked };
+        let usual = preset.map(&[])?;
+        let options = ReadOptions { map: Some(&usual), ..*asked };
         let file = match open(path, &options.request(), options.dataset, &mut Damage::default()) {
             Ok(file) => file,
             // Reading says the same of a file that is none.
@@ -149,6 +263,7 @@ pub fn recognise(
         if name.is_none() && is_usual(&names, robot) {
             return Ok(None);
         }
+        let map = preset.map(&names)?;
         let whole = map.for_robot(robot)?;
         let has = |channel| has_all(&names, &whole, robot, channel);
         let has_time = names.iter().any(|n| n == options.time());
@@ -167,8 +282,26 @@ pub fn recognise(
             _ if has_time && has_goal => without_effort = without_effort.or(Some(found)),
             (false, _) => first = first.or(Some(found)),
         }
+        columns = names;
     }
-    Ok(without_velocity.or(without_effort).or(first.filter(|_| name.is_some())))
+    let found = without_velocity.or(without_effort).or(first.filter(|_| name.is_some()));
+    match fitting(&columns)? {
+        Some(own)
+            if found.is_none()
+                && own.is_certain
+                && own.joints.is_empty()
+                && own.count < robot.links().len() =>
+        {
+            Err(LogError::OtherCount {
+                path: path.to_owned(),
+                pattern: own.pattern.into(),
+                words: own.words,
+                found: own.count,
+                joints: robot.joint_names().map(str::to_owned).collect(),
+            })
+        }
+        _ => Ok(found),
+    }
 }
 
 /// Whether a file has positions under their usual names.

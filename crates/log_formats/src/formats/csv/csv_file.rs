@@ -13,7 +13,10 @@ use crate::{
         unread_kinds::PROSE,
     },
     file_format::{FileFormat, Magic, Opened, Request},
-    formats::csv::dialect::{Dialect, Header, Numerals},
+    formats::csv::{
+        dialect::{Dialect, Header, Numerals},
+        listed_names::{ListedName, listed_names, with_names},
+    },
 };
 
 /// Number of bytes from which the dialect is determined.
@@ -50,6 +53,8 @@ pub(crate) struct CsvFile {
     file: File,
     dialect: Dialect,
     names: Vec<String>,
+    /// Names that every row lists, and that entries are called by.
+    listed: Vec<ListedName>,
     /// Start of a last row that was torn while it was written.
     torn_from: Option<u64>,
 }
@@ -68,21 +73,29 @@ impl CsvFile {
         }
         let torn_from = torn_from(&file).map_err(told)?;
         let path = path.to_owned();
-        let mut csv = Self { path, file, dialect, names: Vec::new(), torn_from };
-        csv.names = csv.first_names()?;
+        let (names, listed) = (Vec::new(), Vec::new());
+        let mut csv = Self { path, file, dialect, names, listed, torn_from };
+        (csv.names, csv.listed) = csv.first_names()?;
         Ok(csv)
     }
 
-    fn first_names(&self) -> Result<Vec<String>, FormatError> {
-        let mut first = csv::ByteRecord::new();
-        self.records()?
-            .read_byte_record(&mut first)
-            .map_err(|e| FormatError::unreadable(&self.path, &e))?;
-        let fields = self.dialect.fields(&first);
-        Ok(match self.dialect.header {
-            Header::Names => fields.map(|f| String::from_utf8_lossy(f).into_owned()).collect(),
-            Header::Numbers => (1..=fields.count()).map(|k| format!("column_{k}")).collect(),
-        })
+    /// The names of the columns, and those that the first row lists.
+    fn first_names(&self) -> Result<(Vec<String>, Vec<ListedName>), FormatError> {
+        let mut records = self.records()?;
+        let mut next = || -> Result<Vec<String>, FormatError> {
+            let mut record = csv::ByteRecord::new();
+            let read = records.read_byte_record(&mut record);
+            read.map_err(|e| FormatError::unreadable(&self.path, &e))?;
+            let fields = self.dialect.fields(&record);
+            Ok(fields.map(|f| String::from_utf8_lossy(f).into_owned()).collect())
+        };
+        let first = next()?;
+        if self.dialect.header == Header::Numbers {
+            return Ok(((1..=first.len()).map(|k| format!("column_{k}")).collect(), Vec::new()));
+        }
+        // A first row that cannot be read is told when all are read.
+        let listed = listed_names(&first, &next().unwrap_or_default());
+        Ok((with_names(&first, &listed), listed))
     }
 
     /// All records, from the line of names on.
@@ -102,6 +115,22 @@ impl CsvFile {
             return Ok(());
         }
         Err(FormatError::WrongFieldCount { path: self.path.clone(), row, found, expected })
+    }
+
+    /// Checks that a row lists the names that the first one lists.
+    fn check_listed(&self, row: usize, record: &csv::ByteRecord) -> Result<(), FormatError> {
+        for ListedName { column, name } in &self.listed {
+            let found = self.dialect.fields(record).nth(*column).unwrap_or_default();
+            if found != name.as_bytes() {
+                let found = String::from_utf8_lossy(found).replace(char::is_control, " ");
+                let reason = format!(
+                    "row {row}, column {}: found {found:.40}, {name} was expected as in the first row",
+                    self.names[*column]
+                );
+                return Err(FormatError::unreadable(&self.path, &reason));
+            }
+        }
+        Ok(())
     }
 
     fn not_a_number(
@@ -158,7 +187,9 @@ impl Opened for CsvFile {
             cells.clear();
             let fields = self.dialect.fields(&record).zip(&mut numerals);
             cells.extend(fields.map(|(field, numerals)| numerals.cell(field)));
-            let pushed = self.check_length(row, &record).and_then(|()| {
+            let checked =
+                self.check_length(row, &record).and_then(|()| self.check_listed(row, &record));
+            let pushed = checked.and_then(|()| {
                 let refused = |column| self.not_a_number(row, column, &record, &cells);
                 rows.push(row, &cells).map_err(refused)
             });

@@ -30,7 +30,7 @@ impl Dialect {
     /// The dialect, determined from the first lines of a text.
     ///
     /// Comment lines begin with `#` or `%` and stand above the rows. The last of them holds the names if
-    /// the line below it has the same number of fields and these are numbers.
+    /// the line below it has the same number of fields, most of those that are filled are numbers, and it has none itself.
     pub(crate) fn of(text: &[u8]) -> Self {
         let bom = if text.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
         let (mut start, mut comment) = (bom, None);
@@ -41,18 +41,19 @@ impl Dialect {
         }
         let separator = separator(&text[start..]);
         let first = fields(&text[start..], separator).into_iter().next().unwrap_or_default();
-        let has_numbers =
-            !first.is_empty() && first.iter().all(|field| is_number(field, separator));
-        if !has_numbers {
-            return Self { separator, start, header: Header::Names };
-        }
+        let numbers = first.iter().filter(|field| is_number(field, separator)).count();
+        let filled = first.iter().filter(|field| !field.is_empty()).count();
         let above = comment.map(|at| at + 1).filter(|&at| {
-            let names = fields(&text[at..start], separator);
-            names.first().is_some_and(|names| names.len() == first.len())
+            let names = fields(&text[at..start], separator).into_iter().next().unwrap_or_default();
+            let has_number = names.iter().any(|field| is_number(field, separator));
+            names.len() == first.len() && (numbers == filled || !has_number)
         });
         match above {
-            Some(start) => Self { separator, start, header: Header::Names },
-            None => Self { separator, start, header: Header::Numbers },
+            Some(start) if 2 * numbers > filled => Self { separator, start, header: Header::Names },
+            _ if numbers > 0 && numbers == first.len() => {
+                Self { separator, start, header: Header::Numbers }
+            }
+            _ => Self { separator, start, header: Header::Names },
         }
     }
 
@@ -206,6 +207,9 @@ mod tests {
             ("# arm 3\n# at noon\n0 1\n1 2\n", 9, Header::Names),
             ("# arm 3\n# at noon today\n0 1\n1 2\n", 24, Header::Numbers),
             ("% of june\ntime,q\n1,2\n", 10, Header::Names),
+            ("%time,name0,q0\n1,elbow,2\n2,elbow,3\n", 1, Header::Names),
+            ("# of,june\ntime,q\n1,2\n", 10, Header::Names),
+            ("# 7,june,arm\ntime,1,2\n1,2,3\n", 13, Header::Names),
             ("#", 1, Header::Names),
         ] {
             let found = Dialect::of(text.as_bytes());

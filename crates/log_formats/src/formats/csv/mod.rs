@@ -2,3 +2,4 @@
 
 pub(crate) mod csv_file;
 pub(crate) mod dialect;
+pub(crate) mod listed_names;

@@ -127,6 +127,7 @@ impl ParquetFile {
             column: column.to_owned(),
             purpose: "the episode of every row was expected there".to_owned(),
             nearest: None,
+            found: self.names().unwrap_or_default().into(),
         };
         let needed = Needed { time: column, signals: BTreeSet::new(), excerpt: None };
         let mut table = guard(&self.path, NAME, || self.decode(&needed, None, Further::LeftOut))?;
