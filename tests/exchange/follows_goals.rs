@@ -25,14 +25,14 @@ const AS_GOOD: f64 = 1.1;
 
 /// Positions at each row of goals that are held from row to row, from rest at the first ones.
 ///
-/// A step is a period of the servos, whose torque is held as long. RK4: the velocity of MuJoCo's Euler is half a step
-/// late, which takes kd dt / 2 off the inertia (with it the error is 1.18 times that of the extended robot).
+/// A step is a period of the servos, whose torque is held as long, as the file says. RK4, as the file says: the velocity of
+/// MuJoCo's Euler is half a step late, which takes kd dt / 2 off the inertia (with it the error is 1.18 times that of the
+/// extended robot).
 const SCRIPT: &str = "
 import json, sys, mujoco, numpy
 question = json.load(sys.stdin)
 model = mujoco.MjModel.from_xml_string(question['model'])
-model.opt.timestep = question['period_s']
-model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4
+assert model.opt.timestep == question['period_s'], model.opt.timestep
 data = mujoco.MjData(model)
 names, goals = question['joints'], numpy.array(question['goals'])
 q = [model.joint(name).qposadr[0] for name in names]

@@ -98,6 +98,32 @@ fn a_servo_is_a_position_actuator_and_is_read_again_as_one() {
 }
 
 /// A delay of goals in which half a hold may be is not called exact, and one of the torque has a size.
+/// Robots without a position loop keep the integrator of their simulation.
+#[test]
+fn a_file_of_mujoco_with_servos_says_under_which_integrator_they_follow() {
+    for format in [Format::Mjcf, Format::ActuatorMjcf] {
+        let servos = written(&format!("{LOOP}{DRIVES}"), format);
+        let (word, why) = told(&servos, "robot", "step of the position loops");
+        assert!(word == "exact" && why.contains("Euler"), "{word}: {why}");
+        let option = servos.text.lines().find(|line| line.contains("<option")).unwrap();
+        assert!(
+            option.contains("integrator=\"RK4\"") && option.contains("timestep=\"0.002\""),
+            "{option}"
+        );
+    }
+    let plain = written(DRIVES, Format::Mjcf);
+    assert!(!plain.text.contains("integrator"), "{}", plain.text);
+    assert!(plain.fates.iter().all(|f| f.at != "robot"), "{:?}", plain.fates);
+}
+
+#[test]
+fn times_have_no_digits_below_a_hundredth_of_a_millisecond() {
+    let late = DRIVES.replace("21.0", "11.111111");
+    let servos = written(&format!("{LOOP}{late}"), Format::Mjcf);
+    let of = |what: &str| servos.fates.iter().find(|f| f.at == "elbow" && f.what.starts_with(what));
+    assert_eq!(of("goals late").map(|f| f.what.as_str()), Some("goals late by 11.11 ms"));
+}
+
 #[test]
 fn what_a_delay_leaves_out_has_a_size() {
     let unheld = LOOP.replace(", goal_hold_hz = 100.0", "");

@@ -274,6 +274,15 @@ class Answer(unittest.TestCase):
         self.assertIn("<mujoco", self.found.export("mjcf").text)
         self.assertIn("<robot", self.found.export("urdf").text)
         self.assertIn("<sdf", self.found.export("sdf").text)
+
+    def test_the_servos_of_a_robot_are_exported_alone(self):
+        servos = plumbline.Robot(ROOT / "robots/so101/robot.toml")
+        card = servos.export("actuator_mjcf")
+        self.assertIn("<position", card.text)
+        self.assertIn("integrator", card.text)
+        self.assertIn("DelayedPDActuatorCfg", servos.export("actuator_isaac").text)
+        self.assertIn("{", servos.export("actuator_bam").text)
+        self.assertTrue(all(row["fate"] in ("exact", "approximated", "dropped") for row in card.quantities))
         cell = self.found._repr_html_()
         self.assertIn("Coulomb friction", cell)
         with tempfile.TemporaryDirectory() as folder:

@@ -22,6 +22,7 @@ pub(crate) fn fates(loaded: &Loaded, format: Format) -> Vec<QuantityFate> {
         let what = format!("gravity ({x}, {y}, {z}) m/s²");
         fates.push(QuantityFate { at: "robot".to_owned(), what, fate });
     }
+    fates.extend(mjcf::position::option_fate(robot).filter(|_| format == Format::Mjcf));
     for (link, old) in robot.links().iter().zip(loaded.robot_in_urdf.links()) {
         let is_told = matches!(format, Format::Mjcf | Format::Isaac);
         let is_impossible = is_told && !link.inertia.is_positive_definite();

@@ -24,6 +24,12 @@ pub fn size(value: f64) -> String {
     rounded.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
+/// A time (s) in ms, from 1 ms on without what is below .01 ms.
+pub fn milliseconds(time_s: f64) -> f64 {
+    let ms = 1e3 * time_s;
+    if ms.abs() < 1.0 { ms } else { (1e2 * ms).round() / 1e2 }
+}
+
 /// The entries of a moment of inertia (kg·m²) by the names that URDF and SDF give them.
 pub fn moments(about_com: &Matrix3<f64>) -> [(&'static str, String); 6] {
     let i = about_com;

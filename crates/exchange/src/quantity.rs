@@ -1,6 +1,6 @@
 use robot::{Actuator, Link, PdGain, Robot};
 
-use crate::numbers::size;
+use crate::numbers::{milliseconds, size};
 
 /// A property of a drive that an ideal drive lacks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -109,17 +109,17 @@ pub fn quantities(robot: &Robot, link: &Link) -> Vec<(DriveQuantity, String)> {
     add(Q::EffortOffset, a.torque_offset, 0.0, "effort at no torque", nm);
     add(Q::Backlash, a.backlash, 0.0, "play", rad);
     add(Q::Elasticity, a.elasticity.unwrap_or(0.0), 0.0, "stiffness", &format!("{nm}/{rad}"));
-    add(Q::Delay, 1e3 * a.delay_s, 0.0, "delay", "ms");
-    add(Q::Lag, 1e3 * a.lag_s, 0.0, "lag", "ms");
+    add(Q::Delay, milliseconds(a.delay_s), 0.0, "delay", "ms");
+    add(Q::Lag, milliseconds(a.lag_s), 0.0, "lag", "ms");
     add(Q::EncoderOffset, a.encoder_offset, 0.0, "encoder offset", rad);
     add(Q::Ratio, a.transmission_ratio, 1.0, "true over reported position", "");
-    add(Q::Skew, 1e3 * a.effort_skew_s, 0.0, "effort late by", "ms");
-    add(Q::GoalDelay, 1e3 * a.goal_delay_s, 0.0, "goals late by", "ms");
+    add(Q::Skew, milliseconds(a.effort_skew_s), 0.0, "effort late by", "ms");
+    add(Q::GoalDelay, milliseconds(a.goal_delay_s), 0.0, "goals late by", "ms");
     if let Some(PdGain { kp, kd }) = a.position_loop {
         let what = format!("position loop {} {nm}/{rad}, {} {nm}·s/{rad}", size(kp), size(kd));
         list.push((Q::Loop, what));
         if let Some(hold_s) = a.goal_hold_s {
-            list.push((Q::GoalHold, format!("goals held for {} ms", size(1e3 * hold_s))));
+            list.push((Q::GoalHold, format!("goals held for {} ms", size(milliseconds(hold_s)))));
         }
     }
     if let Some(coupling) = a.coupling {

@@ -142,9 +142,9 @@ impl PyRobot {
 
     /// The robot in a format, and as JSON what became of every quantity.
     fn export(&self, format: &str) -> PyResult<(String, String)> {
-        let known = Format::ALL.into_iter().find(|known| known.name() == format);
-        let Some(known) = known else {
-            let all = Format::ALL.map(Format::name).join(", ");
+        let formats = || Format::ALL.into_iter().chain(Format::ACTUATORS);
+        let Some(known) = formats().find(|known| known.name() == format) else {
+            let all = formats().map(Format::name).collect::<Vec<_>>().join(", ");
             return Err(PyValueError::new_err(format!(
                 "format: found {format:?}, one of {all} was expected"
             )));

@@ -7,8 +7,8 @@ use crate::actuator::isaac_lab::{USUAL_STEP_S, in_steps};
 use crate::fate::{Fate, QuantityFate};
 use crate::format::Format;
 use crate::mjcf;
-use crate::mjcf::position::servo_fate;
-use crate::numbers::size;
+use crate::mjcf::position::{option_fate, servo_fate};
+use crate::numbers::{milliseconds, size};
 use crate::quantity::{DriveQuantity as Q, quantities};
 use crate::servo::{Servo, goal_delay};
 use crate::unsupported::fate_of_unsupported;
@@ -16,8 +16,10 @@ use crate::usd;
 
 /// What becomes of every quantity of the servos of `robot`, which has the gains of its controller as position loops.
 pub fn fates(loaded: &Loaded, robot: &Robot, format: Format) -> Vec<QuantityFate> {
+    let options = option_fate(robot).filter(|_| format == Format::ActuatorMjcf);
     let pairs = robot.links().iter().zip(loaded.robot.links());
-    pairs.flat_map(|(link, described)| of_joint(robot, link, described, format)).collect()
+    let joints = pairs.flat_map(|(link, described)| of_joint(robot, link, described, format));
+    options.into_iter().chain(joints).collect()
 }
 
 fn of_joint(robot: &Robot, link: &Link, described: &Link, format: Format) -> Vec<QuantityFate> {
@@ -47,7 +49,7 @@ fn without_rate(link: &Link, told: &Fate) -> Fate {
     let Some(PdGain { kp, kd }) = link.actuator.position_loop else { return told.clone() };
     Fate::near(format!(
         "{told}; the velocity of a goal is not followed, which makes it {} ms late",
-        size(1e3 * kd / kp)
+        size(milliseconds(kd / kp))
     ))
 }
 
@@ -142,7 +144,8 @@ fn of_loop(quantity: Q, link: &Link, servo: &Servo, format: Format) -> Fate {
 fn whole_steps(late_s: f64) -> Fate {
     let written_s = in_steps(late_s);
     let steps = (written_s / USUAL_STEP_S).round();
-    let [step, written, off] = [USUAL_STEP_S, written_s, written_s - late_s].map(|s| size(1e3 * s));
+    let [step, written, off] =
+        [USUAL_STEP_S, written_s, written_s - late_s].map(|s| size(milliseconds(s)));
     Fate::near(format!(
         "min_delay and max_delay in whole steps of physics_dt: {steps} of {step} ms are {written} ms, {off} ms off"
     ))

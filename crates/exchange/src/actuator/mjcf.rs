@@ -3,7 +3,7 @@
 use robot::{Link, Robot};
 
 use crate::mjcf::joint::drive_attributes;
-use crate::mjcf::position::actuator;
+use crate::mjcf::position::{actuator, servo_options};
 use crate::mjcf::write::{FRICTION_IMPEDANCE, FRICTION_REFERENCE};
 use crate::servo::Servo;
 use crate::xml_text::XmlText;
@@ -17,6 +17,10 @@ pub fn write(robot: &Robot) -> String {
     );
     sheet.open("mujoco", &[("model", format!("{} servos", robot.name()))]);
     let servos = || robot.links().iter().filter_map(|link| Some((link, Servo::of(link)?)));
+    sheet.comment(
+        "of the whole model: with Euler, the default, the velocity of a loop is half a step late",
+    );
+    sheet.leaf("option", &servo_options().collect::<Vec<_>>());
     sheet.open("default", &[]);
     for (link, _) in servos() {
         sheet.open("default", &[("class", class(link))]);

@@ -1,8 +1,8 @@
 //! Actuators that follow a goal.
 
-use robot::Link;
+use robot::{Link, Robot};
 
-use crate::fate::Fate;
+use crate::fate::{Fate, QuantityFate};
 use crate::numbers::{number, numbers};
 use crate::quantity::DriveQuantity as Q;
 use crate::servo::{Servo, goal_delay};
@@ -11,6 +11,29 @@ use crate::xml_text::XmlText;
 
 /// Shortest step of a simulation whose history of controls reaches back over a delay (s), a quarter of MuJoCo's default.
 const SHORTEST_STEP_S: f64 = 0.0005;
+
+/// Integrator and step (s) with which the velocity that damps a loop is on time.
+///
+/// MuJoCo's Euler takes the velocity of a position half a step late, which takes `kd step / 2` off the inertia.
+pub const SERVO_OPTIONS: [(&str, &str); 2] = [("integrator", "RK4"), ("timestep", "0.002")];
+
+/// [`SERVO_OPTIONS`] as attributes.
+pub fn servo_options() -> impl Iterator<Item = (&'static str, String)> {
+    SERVO_OPTIONS.into_iter().map(|(key, value)| (key, value.to_owned()))
+}
+
+/// What the options of a servo stand for, where a robot has one.
+pub fn option_fate(robot: &Robot) -> Option<QuantityFate> {
+    let at = "robot".to_owned();
+    robot.links().iter().any(|link| Servo::of(link).is_some()).then(|| QuantityFate {
+        at,
+        what: "step of the position loops 2 ms".to_owned(),
+        fate: Fate::exact(
+            "<option integrator=\"RK4\" timestep=\"0.002\">: keep it, Euler has the velocity half a step late, \
+             which takes kd step / 2 off the inertia",
+        ),
+    })
+}
 
 /// An actuator whose control is the goal in reported positions.
 ///

@@ -5,9 +5,10 @@ use robot::{Inertia, Link, Loaded, Robot, Shape, Visual};
 
 use crate::fate::Fate;
 use crate::mjcf::joint::{actuator, gives, joints, springs, tendons};
-use crate::mjcf::position::servo_fate;
+use crate::mjcf::position::{servo_fate, servo_options};
 use crate::numbers::{number, numbers};
 use crate::quantity::DriveQuantity;
+use crate::servo::Servo;
 use crate::unsupported::fate_of_unsupported;
 use crate::xml_text::XmlText;
 
@@ -36,7 +37,11 @@ pub fn write(loaded: &Loaded, robot: &Robot) -> String {
         compiler.push(("balanceinertia", "true".to_owned()));
     }
     sheet.leaf("compiler", &compiler);
-    sheet.leaf("option", &[("gravity", numbers(robot.gravity_in_base().iter()))]);
+    let mut option = vec![("gravity", numbers(robot.gravity_in_base().iter()))];
+    if robot.links().iter().any(|link| Servo::of(link).is_some()) {
+        option.extend(servo_options());
+    }
+    sheet.leaf("option", &option);
     defaults(&mut sheet);
     sheet.open("worldbody", &[]);
     loaded.looks.base.iter().for_each(|visual| geom(&mut sheet, visual));

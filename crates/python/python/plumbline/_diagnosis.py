@@ -92,7 +92,7 @@ class Diagnosis:
             )
 
     def export(self, format: str) -> Export:
-        """The robot with the findings as ``"urdf"``, ``"mjcf"`` or ``"sdf"``; see ``Robot.export``."""
+        """The robot with the findings as ``"urdf"``, ``"mjcf"`` or another format of ``Robot.export``."""
         return self.robot.export(format)
 
     def plot(self, run: int = 0) -> Figure:

@@ -134,9 +134,12 @@ class Robot:
         return self._native.limits
 
     def export(self, format: str) -> Export:
-        """The robot as ``"urdf"``, ``"mjcf"`` or ``"sdf"``.
+        """The robot as ``"urdf"``, ``"mjcf"``, ``"sdf"`` or ``"isaac"`` (USD), or its servos alone: actuators of
+        MuJoCo (``"actuator_mjcf"``), of Isaac Lab (``"actuator_isaac"``, Python) or parameters of BAM
+        (``"actuator_bam"``, JSON; its ``text`` is empty where BAM has the law of none of them).
 
-        Raises ``ValueError`` for another format, and ``PlumblineError`` where the robot has no such form.
+        Raises ``ValueError`` for another format, and ``PlumblineError`` where the robot has no such form, as servos
+        without a position loop.
         """
         text, quantities = self._native.export(_arguments.text("format", format))
         return Export(text, tuple(json.loads(quantities)))
