@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use diagnosis::{JointTraces, RunTraces};
 
 use crate::diagnosis::places::JointUnits;
@@ -19,6 +21,10 @@ const NEAR: f64 = 0.1;
 /// Length of the stretch that is shown enlarged (s).
 const DETAIL_S: f64 = 8.0;
 
+/// Periods of the cut-off at either end of a run that are not drawn over time: efforts are low-passed from a run's first sample
+/// to its last, where they have not settled.
+const EDGE_PERIODS: f64 = 1.0;
+
 /// Points that all figures over time may hold together; about ten bytes each.
 const POINTS_IN_ALL: usize = 90_000;
 
@@ -34,10 +40,24 @@ pub(crate) struct JointFigures {
     pub residual: Vec<Chart>,
 }
 
-type Runs<'a> = Vec<(&'a RunTraces, &'a JointTraces)>;
+/// The signals of a joint in a run, and the samples that are drawn over time.
+type Part<'a> = (&'a RunTraces, &'a JointTraces, Range<usize>);
 
-fn runs_of<'a>(report: &Report<'a>, joint: usize) -> Runs<'a> {
-    report.traces.iter().filter_map(|run| Some((run, run.joints.get(joint)?))).collect()
+fn runs_of<'a>(report: &Report<'a>, joint: usize) -> Vec<Part<'a>> {
+    let edge_s = EDGE_PERIODS / report.diagnosis.data.cutoff_hz;
+    let of =
+        |run: &'a RunTraces| Some((run, run.joints.get(joint)?, inner_samples(&run.time, edge_s)));
+    report.traces.iter().filter_map(of).collect()
+}
+
+/// The samples farther than `edge_s` (s) from both ends of a run; all where none is, or the edge has no length.
+fn inner_samples(time: &[f64], edge_s: f64) -> Range<usize> {
+    let ends = time.first().zip(time.last()).filter(|_| edge_s.is_finite() && edge_s > 0.0);
+    let inner = ends.map(|(first, last)| {
+        let begin = time.partition_point(|t| *t < first + edge_s);
+        begin..time.partition_point(|t| *t <= last - edge_s)
+    });
+    inner.filter(|inner| inner.start < inner.end).unwrap_or(0..time.len())
 }
 
 /// The torque of one joint over the stretch of [`DETAIL_S`] where the nominal model errs
@@ -71,9 +91,9 @@ pub(crate) fn figures_of(report: &Report, joint: usize) -> JointFigures {
     };
     let detail = worst_stretch(&runs)
         .map(|(run, trace, part)| both(worst_title(name, run), slice_of(run, trace, part)));
-    let whole = runs.iter().map(|(run, trace)| {
+    let whole = runs.iter().map(|(run, trace, part)| {
         let title = format!("Torque of {name}: {}", run.name);
-        both(title, slice_of(run, trace, 0..run.time.len()))
+        both(title, slice_of(run, trace, part.clone()))
     });
     let mut time: Vec<[Chart; 2]> = detail.into_iter().chain(whole).collect();
     time.retain(|[torque, _]| !torque.is_empty());
@@ -99,11 +119,7 @@ struct Stretch<'a> {
     torques: [(Role, &'a [f64]); 3],
 }
 
-fn slice_of<'a>(
-    run: &'a RunTraces,
-    trace: &'a JointTraces,
-    part: std::ops::Range<usize>,
-) -> Stretch<'a> {
+fn slice_of<'a>(run: &'a RunTraces, trace: &'a JointTraces, part: Range<usize>) -> Stretch<'a> {
     let slice = |values: &'a [f64]| values.get(part.clone()).unwrap_or(&[]);
     Stretch {
         time: slice(&run.time),
@@ -164,40 +180,37 @@ fn left_over_time(
     }
 }
 
-type Part<'a> = (&'a RunTraces, &'a JointTraces, std::ops::Range<usize>);
-
 /// The run in which the nominal residual has the most power.
-fn worst_run<'a>(runs: &[(&'a RunTraces, &'a JointTraces)]) -> Option<Part<'a>> {
-    let whole = |run: &RunTraces| 0..run.time.len();
-    let power = |&&(run, trace): &&(&RunTraces, &JointTraces)| power_of_residual(trace, whole(run));
-    let worst = runs.iter().max_by(|a, b| power(a).total_cmp(&power(b)))?;
-    Some((worst.0, worst.1, whole(worst.0)))
+fn worst_run<'a>(runs: &[Part<'a>]) -> Option<Part<'a>> {
+    let power = |(_, trace, part): &&Part| power_of_residual(trace, part.clone());
+    runs.iter().max_by(|a, b| power(a).total_cmp(&power(b))).cloned()
 }
 
 /// The stretch of [`DETAIL_S`] in which the nominal residual has the most power; none when
 /// no run is twice as long.
-fn worst_stretch<'a>(runs: &[(&'a RunTraces, &'a JointTraces)]) -> Option<Part<'a>> {
+fn worst_stretch<'a>(runs: &[Part<'a>]) -> Option<Part<'a>> {
     let mut worst = None;
     let mut most = 0.0;
-    for &(run, trace) in runs {
+    for (run, trace, drawn) in runs {
         let (Some(first), Some(last)) = (run.time.first(), run.time.last()) else { continue };
         if last - first < 2.0 * DETAIL_S {
             continue;
         }
         let length = (DETAIL_S / (last - first) * run.time.len() as f64) as usize;
-        for start in (0..=run.time.len() - length).step_by((length / 2).max(1)) {
+        let last_start = drawn.end.saturating_sub(length);
+        for start in (drawn.start..=last_start).step_by((length / 2).max(1)) {
             let part = start..start + length;
             let power = power_of_residual(trace, part.clone());
             if power > most {
                 most = power;
-                worst = Some((run, trace, part));
+                worst = Some((*run, *trace, part));
             }
         }
     }
     worst
 }
 
-fn power_of_residual(trace: &JointTraces, part: std::ops::Range<usize>) -> f64 {
+fn power_of_residual(trace: &JointTraces, part: Range<usize>) -> f64 {
     let (measured, nominal) = (trace.measured.get(part.clone()), trace.nominal.get(part));
     let pairs = measured.unwrap_or(&[]).iter().zip(nominal.unwrap_or(&[]));
     pairs.map(|(m, n)| (m - n).powi(2)).filter(|p| p.is_finite()).sum()
@@ -207,10 +220,11 @@ fn residual_against(
     title: String,
     x: Axis,
     units: JointUnits,
-    runs: &[(&RunTraces, &JointTraces)],
+    runs: &[Part],
     signal: Signal,
 ) -> Chart {
-    let all = |of: Signal| -> Vec<f64> { runs.iter().flat_map(|(_, t)| of(t).clone()).collect() };
+    let all =
+        |of: Signal| -> Vec<f64> { runs.iter().flat_map(|(_, t, _)| of(t).clone()).collect() };
     let (signal, measured) = (all(signal), all(|t| &t.measured));
     let mut areas = Vec::new();
     let mut lines = Vec::new();
@@ -245,6 +259,31 @@ mod tests {
         };
         let highest = measured.iter().map(|p| p[1]).fold(0.0, f64::max);
         assert!(highest > 10.0, "{highest}");
+    }
+
+    #[test]
+    fn what_the_filter_has_not_settled_on_is_not_drawn() {
+        let mut sample = sample::arm();
+        sample.diagnosis.data.cutoff_hz = 8.0;
+        for trace in &mut sample.traces[0].joints {
+            // 40 samples are .2 s; a period of the cut-off is .125 s.
+            let last = trace.measured.len() - 1;
+            (trace.measured[20], trace.measured[last - 20]) = (900.0, 900.0);
+            (trace.measured[40], trace.measured[last - 40]) = (700.0, 700.0);
+        }
+        for chart in figures_of(&sample.report(), 0).time.iter().flatten() {
+            for series in &chart.series {
+                let CurveShape::Line(points) = &series.shape else { continue };
+                assert!(points.iter().all(|[_, y]| *y < 800.0), "{}", chart.title);
+            }
+        }
+        let time: Vec<f64> = (0..100).map(f64::from).collect();
+        assert_eq!(inner_samples(&time, 10.0), 10..90);
+        assert_eq!(
+            [inner_samples(&time, 60.0), inner_samples(&time, f64::INFINITY)],
+            [0..100, 0..100]
+        );
+        assert_eq!(inner_samples(&[], 1.0), 0..0);
     }
 
     #[test]
