@@ -41,7 +41,8 @@ fn drift_and_torque_of_every_joint_are_told_and_the_motions_written() {
         let row = words(line);
         let number = |i: usize| row[i].parse::<f64>().unwrap();
         assert_eq!((row[0].as_str(), row.len()), (*joint, 5), "{line}");
-        assert!(number(1) < 1e-4 && number(3) < 0.02 * number(4), "{line}");
+        // In mrad.
+        assert!(1e-3 * number(1) < 1e-4 && number(3) < 0.02 * number(4), "{line}");
     }
     for meaning in ["ms      drift after so long", "torque  simulated minus measured"] {
         assert!(answer.out.contains(meaning), "{meaning} is missing in\n{}", answer.out);
@@ -84,7 +85,7 @@ fn the_tip_is_told_in_millimetres_and_all_numbers_for_programs() {
         let line = told.out.lines().find_map(|line| line.trim_start().strip_prefix(name)).unwrap();
         line.trim().parse().unwrap()
     };
-    let drift = number("x ");
+    let drift = 1e-3 * number("x ");
     assert!(drift > 1e-3, "{}", told.out);
     assert!((number("tip (mm)") - 1e3 * drift).abs() < 5e-3 * 1e3 * drift, "{}", told.out);
 

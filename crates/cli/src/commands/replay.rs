@@ -248,7 +248,7 @@ fn clock_warnings(prepared: &Prepared) -> impl Iterator<Item = &LogWarning> {
 /// What the columns mean.
 const COLUMNS: &str =
     "ms      drift after so long under the measured torque: simulated minus measured position,
-        RMS over all such windows of the log (rad or m); of the tip, the origin of the last
+        RMS over all such windows of the log (mrad or mm); of the tip, the origin of the last
         link, the distance in mm
 torque  simulated minus measured along the measured motion, RMS, beside the RMS of the
         measured (N·m or N)
@@ -282,7 +282,8 @@ fn text(robot: &Robot, run: &ReplayedRun, replay: &Replay) -> String {
     let mut rows: Vec<Vec<String>> = Vec::new();
     for (j, joint) in robot.joint_names().enumerate() {
         let mut row = vec![joint.to_owned()];
-        let drift = |w: &ReplayedWindow| w.drift_rms.as_ref().map(|d| format!("{:.2e}", d[j]));
+        let drift =
+            |w: &ReplayedWindow| w.drift_rms.as_ref().map(|d| report::significant(1e3 * d[j], 3));
         row.extend(run.windows.iter().map(|window| or_none(drift(window))));
         if let Some(torque) = &run.torque {
             row.push(report::significant(torque.error_rms_nm[j], 3));
