@@ -221,3 +221,19 @@ fn the_pages_of_keys_and_commands_are_those_of_the_program() {
         assert!(made == kept, "plumbline {} > docs/src/{page} makes it anew", arguments.join(" "));
     }
 }
+
+/// The robots that come with the program are checked by editors against the schema beside them.
+#[test]
+fn the_robots_name_the_schema_that_they_are_checked_with() {
+    let robots = workspace().join("robots");
+    let kept = fs::read_to_string(robots.join("robot.schema.json")).unwrap();
+    let made = run(&workspace(), &["schema", "robot"]).out;
+    assert!(made == kept, "plumbline schema robot > robots/robot.schema.json makes it anew");
+    let mut named = 0;
+    for folder in fs::read_dir(&robots).unwrap().map(|entry| entry.unwrap().path()) {
+        let Ok(text) = fs::read_to_string(folder.join("robot.toml")) else { continue };
+        assert_eq!(text.lines().next(), Some("#:schema ../robot.schema.json"), "{folder:?}");
+        named += 1;
+    }
+    assert_eq!(named, 4);
+}

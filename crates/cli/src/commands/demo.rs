@@ -8,12 +8,13 @@ use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 
 /// Files of the repository: where they are written, and what is in them.
-type Sources = [(&'static str, &'static [u8]); 4];
+type Sources = [(&'static str, &'static [u8]); 5];
 
-/// The files of an arm: description, scenario of the arm, scenario of the demo, which is the last.
+/// The files of an arm: schema of its description, description, scenario of the arm, scenario of the demo, which is the last.
 macro_rules! sources {
     ($robot:literal, $arm:literal) => {
         [
+            ("robots/robot.schema.json", include_bytes!("../../../../robots/robot.schema.json")),
             (
                 concat!("robots/", $robot, "/robot.urdf"),
                 include_bytes!(concat!("../../../../robots/", $robot, "/robot.urdf")),
