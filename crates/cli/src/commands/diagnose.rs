@@ -2,6 +2,7 @@ mod residual;
 
 use std::path::{Path, PathBuf};
 
+use catalogue::EffectKind;
 use diagnosis::{Diagnosis, DiagnosisProgress, Verdict};
 use exchange::{Export, Format};
 use experiment::{DiagnosedLogs, ExperimentError, ForwardGap};
@@ -310,8 +311,23 @@ fn extended_toml(
         text.push_str("#\n# Fitted without a name (--only-findings leaves these out):\n");
         text.push_str(&format!("# {}\n", lines.join("\n# ")));
     }
+    let is_named = diagnosis.findings.iter().any(|f| f.at.effect == EffectKind::TimeSkew);
+    if let Some(skew_ms) = skew_of(&loaded.robot, extended).filter(|_| !is_named) {
+        text.push_str(&format!(
+            "#\n# Also set: effort_skew_ms. The efforts of these logs are {skew_ms} ms late; this is of the logs, and no \
+             other program's\n# file has it.\n"
+        ));
+    }
     let toml = loaded.to_toml(extended, "robot.urdf").map_err(CliError::Extended)?;
     Ok(format!("{text}\n{toml}"))
+}
+
+/// How much later the efforts of the extended robot are at the first joint where they are (ms), in words.
+fn skew_of(described: &Robot, extended: &Robot) -> Option<String> {
+    let pairs = described.links().iter().zip(extended.links());
+    let skews = pairs.map(|(own, new)| new.actuator.effort_skew_s - own.actuator.effort_skew_s);
+    let first_s = skews.into_iter().find(|skew| skew.abs() > 0.0)?;
+    Some(report::significant(1e3 * first_s, 3))
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, ReportError> {
@@ -341,4 +357,23 @@ fn say(
     );
     let json = arguments.json.then_some(json);
     print_answer(Quiet(arguments.quiet), json, || report::text(report), &closing)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_skew_that_the_description_has_not_is_told() {
+        let urdf = "<robot name=\"r\"><link name=\"base\"/><joint name=\"j\" type=\"continuous\">\
+                    <parent link=\"base\"/><child link=\"a\"/><axis xyz=\"0 1 0\"/></joint><link name=\"a\"><inertial>\
+                    <mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/>\
+                    </inertial></link></robot>";
+        let described = Robot::from_urdf(urdf).unwrap();
+        let mut extended = described.clone();
+        assert_eq!(skew_of(&described, &extended), None);
+        extended.link_mut(0).unwrap().actuator.effort_skew_s = -0.0009;
+        assert_eq!(skew_of(&described, &extended).as_deref(), Some("-0.900"));
+        assert_eq!(skew_of(&extended, &extended), None);
+    }
 }
