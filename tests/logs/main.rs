@@ -4,6 +4,7 @@
 
 mod bad_input;
 mod bags;
+mod bounds;
 mod damage;
 mod dialects;
 mod estimators;

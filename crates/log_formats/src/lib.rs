@@ -27,4 +27,5 @@ pub use common::table::{Needed, Table};
 pub use common::words::{columns, list, suggestion};
 pub use file_format::{Opened, Request};
 pub use formats::lerobot::dataset::LerobotDataset;
+pub use formats::parquet::nesting::check_parquet_nesting;
 pub use open::{column_names, open};

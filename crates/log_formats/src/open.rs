@@ -1,7 +1,7 @@
 use std::{collections::BTreeSet, fs, io, path::Path};
 
 use crate::{
-    common::{damage::Damage, error::FormatError, unread_kinds::TWICE},
+    common::{bounds::check_columns, damage::Damage, error::FormatError, unread_kinds::TWICE},
     content::Kind,
     file_format::{Opened, Request},
     formats::{
@@ -51,9 +51,10 @@ pub fn open(
 ///
 /// # Errors
 ///
-/// [`FormatError::DuplicateColumn`], and the errors of [`Opened::names`].
+/// [`FormatError::DuplicateColumn`], [`FormatError::TooManyColumns`], and the errors of [`Opened::names`].
 pub fn column_names(log: &dyn Opened, path: &Path) -> Result<Vec<String>, FormatError> {
     let names = log.names()?;
+    check_columns(path, names.len())?;
     let mut seen = BTreeSet::new();
     match names.iter().find(|n| !n.is_empty() && !seen.insert(n.as_str())) {
         Some(name) => {

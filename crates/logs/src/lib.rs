@@ -27,7 +27,7 @@ mod writing;
 
 pub use error::LogError;
 pub use info::{JointInfo, LogInfo, TimeGap, log_info};
-pub use log_formats::{Excerpt, FormatError, LerobotDataset};
+pub use log_formats::{Excerpt, FormatError, LerobotDataset, check_parquet_nesting};
 pub use naming::column_map::ColumnMap;
 pub use naming::map_entry::MappedColumn;
 pub use naming::unit::Unit;

@@ -1,3 +1,5 @@
+use crate::common::bounds::MOST_COLUMNS;
+
 /// An array of numbers, stored column by column.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Array {
@@ -10,8 +12,6 @@ pub(crate) struct Array {
 
 /// Reason for refusing a small file that unpacks to too many numbers.
 pub(crate) const TOO_LARGE: &str = "its numbers take more than is allowed of a file of this size";
-/// Most columns of an array. An array with more is a picture or a list of features.
-const MOST_COLUMNS: u64 = 10_000;
 
 impl Array {
     /// Whether it has one row or one column.
@@ -27,7 +27,8 @@ impl Array {
         }
         let is_turned = Some(*rows) != samples && Some(*columns) == samples;
         let width = if is_turned { *rows } else { *columns };
-        if !(1..=MOST_COLUMNS).contains(&width) {
+        // One with more is a picture or a list of features.
+        if !(1..=MOST_COLUMNS as u64).contains(&width) {
             return vec![];
         }
         let (width, rows) = (width as usize, *rows as usize);

@@ -8,9 +8,10 @@ use crate::{
     arrays::array::Array,
     common::{
         allowance::Allowance,
+        bounds::check_columns,
         damage::Damage,
         error::FormatError,
-        guard::guard,
+        guard::guard_deep,
         sha256::sha256_of_files,
         table::{Needed, Table},
     },
@@ -37,12 +38,12 @@ impl ArrayFile {
         file: File,
         kind: &'static str,
         time: &str,
-        decode: impl FnOnce(File, &mut Allowance) -> io::Result<Vec<Array>>,
+        decode: impl FnOnce(File, &mut Allowance) -> io::Result<Vec<Array>> + Send,
     ) -> Result<Self, FormatError> {
         let length = file.metadata().map_err(|e| FormatError::unreadable(path, &e))?.len();
         let mut allowance = Allowance::of(length);
         let broken = |e: io::Error| FormatError::broken(path, kind, &e);
-        let arrays = guard(path, kind, || decode(file, &mut allowance).map_err(broken))?;
+        let arrays = guard_deep(path, kind, || decode(file, &mut allowance).map_err(broken))?;
         let of_time = arrays.iter().filter(|a| a.is_vector()).find(|array| array.name == time);
         let samples = of_time.map(|array| array.numbers.len() as u64);
         let mut columns = vec![];
@@ -51,6 +52,7 @@ impl ArrayFile {
             let names = PER_NAME * own.len() as u64;
             allowance.take(names).map_err(|e| FormatError::too_large(path, e))?;
             columns.extend(own);
+            check_columns(path, columns.len())?;
         }
         Ok(Self { path: path.to_owned(), columns })
     }

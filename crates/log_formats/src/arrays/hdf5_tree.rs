@@ -14,13 +14,13 @@ use hdf5_reader::{
 
 use crate::{
     arrays::array::{Array, TOO_LARGE},
-    common::allowance::Allowance,
+    common::{allowance::Allowance, bounds::MOST_ENTRIES},
 };
 
 /// Most levels of groups that are read.
 const DEEPEST: usize = 8;
-/// Most arrays, and most groups, that are read. A file may link to one of them repeatedly.
-const MOST: usize = 10_000;
+/// What is said of a file with more groups and arrays than are read.
+const TOO_MANY: &str = "it has more than 10000 groups and arrays";
 /// Size of the cache of unpacked chunks (bytes).
 const CACHE: usize = 1 << 22;
 /// Numbers of HDF5 filters: deflate, and two filters that are refused.
@@ -28,7 +28,7 @@ const DEFLATE: u16 = 1;
 const REFUSED: [u16; 2] = [5, 6];
 
 /// The layout of arrays in HDF5 files of one program.
-pub(crate) trait Layout {
+pub(crate) trait Layout: Sync {
     /// Bytes before the superblock. Addresses in the file are counted from the superblock.
     fn header_bytes(&self) -> u64;
 
@@ -87,7 +87,7 @@ pub(crate) fn read_arrays(
         ..OpenOptions::default()
     };
     let file = Hdf5File::from_storage_with_options(storage, options).map_err(io::Error::other)?;
-    let mut reading = Reading { layout, allowance, groups: 0, arrays: Vec::new() };
+    let mut reading = Reading { layout, allowance, met: 0, arrays: Vec::new() };
     reading.group(&file.root_group().map_err(io::Error::other)?, "", DEEPEST)?;
     Ok(reading.arrays)
 }
@@ -121,8 +121,8 @@ fn filters(allowance: Allowance) -> FilterRegistry {
 struct Reading<'a> {
     layout: &'a dyn Layout,
     allowance: &'a mut Allowance,
-    /// Number of groups read so far.
-    groups: usize,
+    /// Number of groups and arrays met so far. A file may link to one of them repeatedly.
+    met: usize,
     arrays: Vec<Array>,
 }
 
@@ -130,18 +130,17 @@ impl Reading<'_> {
     /// Reads the arrays of a group and of its subgroups.
     fn group(&mut self, group: &Group, prefix: &str, deepest: usize) -> io::Result<()> {
         let (groups, datasets) = group.members().map_err(io::Error::other)?;
-        for dataset in &datasets {
-            if self.arrays.len() < MOST {
-                let name = format!("{prefix}{}", dataset.name());
-                let array = self.array(dataset, name)?;
-                self.arrays.extend(array);
-            }
+        self.met += groups.len() + datasets.len();
+        if self.met > MOST_ENTRIES {
+            return Err(io::Error::other(TOO_MANY));
         }
-        for group in groups.iter().filter(|_| deepest > 0) {
-            self.groups += 1;
-            if self.groups < MOST && self.layout.is_structure(group) {
-                self.group(group, &format!("{prefix}{}.", group.name()), deepest - 1)?;
-            }
+        for dataset in &datasets {
+            let name = format!("{prefix}{}", dataset.name());
+            let array = self.array(dataset, name)?;
+            self.arrays.extend(array);
+        }
+        for group in groups.iter().filter(|group| deepest > 0 && self.layout.is_structure(group)) {
+            self.group(group, &format!("{prefix}{}.", group.name()), deepest - 1)?;
         }
         Ok(())
     }

@@ -26,6 +26,14 @@ pub enum FormatError {
         /// What the path is.
         found: &'static str,
     },
+    /// The table has more columns than are read.
+    #[error("{}: it has more than {most} columns, at most {most} were expected", path.display())]
+    TooManyColumns {
+        /// The file.
+        path: PathBuf,
+        /// Most columns that are read.
+        most: usize,
+    },
     /// The first bytes of the file show a kind that is not supported.
     #[error("{}: this is {found}; {advice}", path.display())]
     OtherKind {

@@ -1,6 +1,7 @@
 //! Shared by all formats: limits, damage, errors, tables and numbers.
 
 pub(crate) mod allowance;
+pub(crate) mod bounds;
 pub(crate) mod damage;
 pub(crate) mod error;
 pub(crate) mod excerpt;

@@ -1,7 +1,10 @@
 use std::collections::BTreeMap;
 
 use crate::{
-    common::table::{Needed, Rows, Table, TableCell},
+    common::{
+        bounds::MOST_COLUMNS,
+        table::{Needed, Rows, Table, TableCell},
+    },
     formats::bag::joint_state::JointState,
 };
 
@@ -22,8 +25,6 @@ pub(crate) struct JointStates {
     values: Vec<f64>,
 }
 
-/// Most columns of a log. Each column costs time in every message.
-const MOST_COLUMNS: usize = 10_000;
 /// Most names in all layouts.
 const MOST_NAMES: usize = 1_000_000;
 

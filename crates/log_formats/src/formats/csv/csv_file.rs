@@ -6,6 +6,7 @@ use std::{
 
 use crate::{
     common::{
+        bounds::{BoundedLines, check_columns},
         damage::Damage,
         error::FormatError,
         sha256::sha256_of_files,
@@ -81,30 +82,33 @@ impl CsvFile {
 
     /// The names of the columns, and those that the first row lists.
     fn first_names(&self) -> Result<(Vec<String>, Vec<ListedName>), FormatError> {
-        let mut records = self.records()?;
-        let mut next = || -> Result<Vec<String>, FormatError> {
+        let next = |records: &mut csv::Reader<_>| -> Result<Vec<String>, FormatError> {
             let mut record = csv::ByteRecord::new();
             let read = records.read_byte_record(&mut record);
             read.map_err(|e| FormatError::unreadable(&self.path, &e))?;
+            check_columns(&self.path, record.len())?;
             let fields = self.dialect.fields(&record);
             Ok(fields.map(|f| String::from_utf8_lossy(f).into_owned()).collect())
         };
-        let first = next()?;
+        // The start of the line shows too many names, before all of them are read.
+        next(&mut self.records(PREVIEW)?)?;
+        let mut records = self.records(u64::MAX)?;
+        let first = next(&mut records)?;
         if self.dialect.header == Header::Numbers {
             return Ok(((1..=first.len()).map(|k| format!("column_{k}")).collect(), Vec::new()));
         }
         // A first row that cannot be read is told when all are read.
-        let listed = listed_names(&first, &next().unwrap_or_default());
+        let listed = listed_names(&first, &next(&mut records).unwrap_or_default());
         Ok((with_names(&first, &listed), listed))
     }
 
-    /// All records, from the line of names on.
-    fn records(&self) -> Result<csv::Reader<Take<&File>>, FormatError> {
+    /// The records in a number of bytes, from the line of names on.
+    fn records(&self, bytes: u64) -> Result<csv::Reader<BoundedLines<Take<&File>>>, FormatError> {
         let start = self.dialect.start as u64;
-        let end = self.torn_from.unwrap_or(u64::MAX);
+        let end = self.torn_from.unwrap_or(u64::MAX).min(start.saturating_add(bytes));
         let text =
             rewind_to(&self.file, start).map_err(|e| FormatError::unreadable(&self.path, &e))?;
-        Ok(self.dialect.records(text.take(end.saturating_sub(start))))
+        Ok(self.dialect.records(BoundedLines::new(text.take(end.saturating_sub(start)))))
     }
 
     /// Checks the number of fields in a row. A row may end in one separator more than the line of names.
@@ -162,7 +166,7 @@ impl Opened for CsvFile {
     fn load(&self, needed: &Needed, damage: &mut Damage) -> Result<Table, FormatError> {
         let mut rows = Rows::new(&self.names, needed);
         let mut numerals = vec![Numerals::between(self.dialect.separator); self.names.len()];
-        let mut reader = self.records()?;
+        let mut reader = self.records(u64::MAX)?;
         let mut record = csv::ByteRecord::new();
         let mut read = |record: &mut csv::ByteRecord| {
             reader.read_byte_record(record).map_err(|e| FormatError::unreadable(&self.path, &e))

@@ -1,7 +1,7 @@
 use std::io::{self, BufReader, Read};
 
 use crate::{
-    common::numeral::Numeral,
+    common::{bounds::MOST_COLUMNS, numeral::Numeral},
     formats::numpy::npy_header::{IndexOrder, NpyHeader},
 };
 
@@ -31,8 +31,6 @@ enum Layout {
     ColumnByColumn,
 }
 
-/// Most columns of an array. An array with more is a picture or a list of features.
-const MOST_COLUMNS: u64 = 10_000;
 /// Longest row of records (bytes).
 const LONGEST_ROW: u64 = 1 << 20;
 
@@ -65,7 +63,8 @@ impl NumpyArray {
             _ => return None,
         };
         let count = width.unwrap_or(1);
-        if !(1..=MOST_COLUMNS).contains(&count) {
+        // One with more is a picture or a list of features.
+        if !(1..=MOST_COLUMNS as u64).contains(&count) {
             return None;
         }
         let column = |k: u64| match (name, width) {
@@ -93,7 +92,7 @@ impl NumpyArray {
             if end > LONGEST_ROW {
                 return None;
             }
-            if let Some(numeral) = field.item.numeral.filter(|_| count <= MOST_COLUMNS) {
+            if let Some(numeral) = field.item.numeral.filter(|_| count <= MOST_COLUMNS as u64) {
                 let own = format!("{prefix}{}", field.name);
                 columns.extend((0..count).map(|k| match field.count {
                     None => own.clone(),
@@ -104,7 +103,7 @@ impl NumpyArray {
             }
             row = end;
         }
-        let is_table = (1..=MOST_COLUMNS as usize).contains(&columns.len());
+        let is_table = (1..=MOST_COLUMNS).contains(&columns.len());
         let (row, layout) = (row as usize, Layout::RowByRow);
         is_table.then_some(Self { columns, samples, places, row, layout })
     }

@@ -3,4 +3,5 @@
 pub(crate) mod array_numbers;
 pub(crate) mod growing_columns;
 pub(crate) mod list_column;
+pub(crate) mod nesting;
 pub(crate) mod parquet_file;

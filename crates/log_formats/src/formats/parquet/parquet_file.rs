@@ -15,6 +15,8 @@ use parquet::arrow::{
 
 use crate::{
     common::{
+        allowance::Allowance,
+        bounds::check_columns,
         damage::Damage,
         error::FormatError,
         excerpt::ExcerptFilter,
@@ -27,11 +29,15 @@ use crate::{
         array_numbers::{append, is_number},
         growing_columns::GrowingColumns,
         list_column,
+        nesting::check_parquet_nesting,
     },
 };
 
 /// Number of rows decoded at once. It is small to limit the memory besides the columns themselves.
 const BATCH_ROWS: usize = 4096;
+
+/// Size of a number that is kept (bytes).
+const CELL: u64 = 8;
 
 /// Name of the format in errors.
 const NAME: &str = "Parquet";
@@ -106,6 +112,7 @@ impl ParquetFile {
                 }
                 None => names.push(field.name().clone()),
             }
+            check_columns(&self.path, names.len())?;
         }
         Ok(names)
     }
@@ -138,6 +145,7 @@ impl ParquetFile {
         let file = self.file.try_clone().map_err(|e| FormatError::unreadable(&self.path, &e))?;
         // The columns' own types are enough; the Arrow schema that a writer may have added
         // is one more thing that can be damaged.
+        check_parquet_nesting(&file).map_err(|reason| broken(&self.path, &reason))?;
         let options = ArrowReaderOptions::new().with_skip_arrow_metadata(true);
         Builder::try_new_with_options(file, options).map_err(|e| broken(&self.path, &e))
     }
@@ -166,8 +174,13 @@ impl ParquetFile {
             .map_err(|e| broken(path, &e))?;
         let mut filter = needed.excerpt.clone();
         let mut columns = GrowingColumns::default();
+        let length = self.file.metadata().map_err(|e| FormatError::unreadable(path, &e))?.len();
+        let mut allowance = Allowance::of(length);
         for batch in batches {
             let batch = batch.map_err(|e| broken(path, &e))?;
+            let cells = batch.num_rows().saturating_mul(batch.num_columns());
+            let unpacked = allowance.take(CELL.saturating_mul(cells as u64));
+            unpacked.map_err(|e| FormatError::too_large(path, e))?;
             let is_read = filter.as_mut().and_then(|e| is_read(&batch, needed.time, e));
             columns.begin_batch(batch.num_rows(), is_read.as_ref());
             let batch = match is_read {

@@ -4,6 +4,7 @@ use std::{collections::BTreeMap, fs::File, path::Path};
 
 use crate::{
     common::{
+        bounds::MOST_ENTRIES,
         damage::Damage,
         error::FormatError,
         guard::guard,
@@ -23,8 +24,6 @@ use crate::{
 pub(crate) const NAME: &str = "SQLite";
 /// The page of the schema table, which lists all tables.
 const TABLES: u32 = 1;
-/// Most topics of a bag.
-const MOST_TOPICS: usize = 10_000;
 
 /// Reads the messages of a bag in recorded order, up to its end or its first damage.
 pub(crate) fn read(
@@ -130,8 +129,8 @@ impl Bag<'_> {
             };
             let topic = Topic { name: text(name)?, kind: text(kind)?, encoding: text(encoding)? };
             topics.insert(row.id, topic);
-            if topics.len() > MOST_TOPICS {
-                return Err(format!("it has more than {MOST_TOPICS} topics").into());
+            if topics.len() > MOST_ENTRIES {
+                return Err(format!("it has more than {MOST_ENTRIES} topics").into());
             }
             Ok(())
         })?;
