@@ -11,6 +11,7 @@ mod documents;
 mod floors;
 mod manifests;
 mod modules;
+mod named_files;
 mod names;
 mod places;
 mod references;

@@ -356,6 +356,8 @@ fn a_mistake_in_a_campaign_is_underlined() {
         ("seeds = 2", "seed_count = 2", "seed_count", "unknown key `seed_count`"),
         ("seed = 7", "seed = -7", "-7", "a"),
         ("scenario.toml", "no.toml", "\"no.toml\"", "no.toml: there is no such file"),
+        ("scenario.toml", "arm.urdf", "\"arm.urdf\"", "arm.urdf: line 1 is no TOML"),
+        ("scenario.toml", "campaign.toml", "\"campaign.toml\"", "campaign.toml: it names itself"),
         ("0.2, 0.3", "0.3, 0.2", "[0.3, 0.2]", "share above 0 up to 1 were expected"),
     ];
     for (old, new, underlined, message) in cases {

@@ -45,7 +45,7 @@ fn a_record_is_read_back_as_it_was_written() {
 fn a_file_without_records_says_what_it_lacks() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("records.parquet");
-    assert!(Record::read(&path).unwrap_err().contains("No such file"));
+    assert!(Record::read(&path).unwrap_err().contains("no such file"));
     fs::write(&path, "PAR1 and no more PAR1").unwrap();
     assert!(!Record::read(&path).unwrap_err().is_empty());
     let time = std::sync::Arc::new(arrow_array::Float64Array::from(vec![1.0]));

@@ -26,6 +26,8 @@ mod learn;
 mod lerobot;
 #[cfg(target_os = "linux")]
 mod limits;
+#[cfg(target_os = "linux")]
+mod named_files;
 mod program;
 mod remembered;
 mod replay;

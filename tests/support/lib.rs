@@ -10,6 +10,7 @@ pub mod book;
 pub mod golden;
 pub mod lerobot;
 pub mod mutated;
+pub mod named_keys;
 pub mod program;
 pub mod recorded;
 pub mod round;

@@ -50,7 +50,8 @@ impl DiagnosedInput {
     pub fn read(path: &Path) -> Result<Self, DesignError> {
         let file = file_of(path);
         let wrong = |reason: String| DesignError::Diagnosis { path: file.clone(), reason };
-        let text = std::fs::read_to_string(&file).map_err(|error| wrong(error.to_string()))?;
+        let text =
+            files::text(&file, files::KEPT_BYTES).map_err(|error| wrong(error.to_string()))?;
         let Document { input, provenance } =
             serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
         Ok(Self { file, options: input, files: provenance.files })

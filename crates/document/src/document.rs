@@ -1,4 +1,4 @@
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde::de::DeserializeOwned;
@@ -48,12 +48,30 @@ impl Document {
     ///
     /// # Errors
     ///
-    /// - [`DocumentError::Unreadable`] when the file is none, is not UTF-8 or has more than
-    ///   16 MiB, files that it extends included.
+    /// - [`DocumentError::Unreadable`] when the file is none, is not UTF-8, has more than 16 MiB with the
+    ///   files that it extends, or is no TOML under a name that does not end with `.toml`.
     /// - [`DocumentError::Mistake`] when a text is not TOML, or when a file that is extended
     ///   cannot be read, extends itself, or is the 17th in a row or the 257th in all.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, DocumentError> {
         read::read(path.as_ref()).map(|root| Self { root })
+    }
+
+    /// Reads the file that this document names at `key`, relative to the folder of the file in which the name stands,
+    /// and the files that it extends. Gives its path too.
+    ///
+    /// # Errors
+    ///
+    /// [`DocumentError::Mistake`], at the key for a file that cannot be read, is no TOML or is this document itself,
+    /// and in the file for a mistake of what it extends.
+    pub fn read_named(
+        &self,
+        key: &KeyPath,
+        named: &Path,
+    ) -> Result<(Self, PathBuf), DocumentError> {
+        let file = self.directory_of(key).join(named);
+        let refuse = |reason| self.mistake(key, format!("{}: {reason}", file.display()), None);
+        let root = read::read_named(&file, self.root.source.file()).map_err(refuse)??;
+        Ok((Self { root }, file))
     }
 
     /// Reads a text of the program's own; mistakes show it under `name`.

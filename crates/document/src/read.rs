@@ -1,7 +1,8 @@
-use std::fs::{self, File};
-use std::io::Read;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+use files::FileError;
 
 use crate::error::DocumentError;
 use crate::key_path::KeyPath;
@@ -19,12 +20,36 @@ const MOST_FILES: usize = 256;
 const MOST_BYTES: usize = 16 << 20;
 
 /// The document in a file, laid over the files that it extends.
+///
+/// Of a text that is no TOML nothing is shown, unless the name of the file says that it should be.
 pub(crate) fn read(path: &Path) -> Result<Node, DocumentError> {
+    let unreadable = |reason| DocumentError::Unreadable { path: path.to_owned(), reason };
     let mut reader = Reader { chain: Vec::new(), files: MOST_FILES, bytes: MOST_BYTES };
-    match reader.open(path) {
-        Ok(text) => reader.layers(path, text),
-        Err(reason) => Err(DocumentError::Unreadable { path: path.to_owned(), reason }),
+    let text = reader.open(path).map_err(unreadable)?;
+    if path.extension().is_none_or(|extension| extension != "toml") {
+        refuse_other(&text).map_err(unreadable)?;
     }
+    reader.layers(path, text)
+}
+
+/// The document in a file that the file `own` names, laid over the files that it extends. Nothing of a text that is no
+/// TOML is shown.
+///
+/// # Errors
+///
+/// A sentence about the file, and inside the mistakes of what it extends.
+pub(crate) fn read_named(
+    file: &Path,
+    own: Option<&Path>,
+) -> Result<Result<Node, DocumentError>, String> {
+    let place = |path: &Path| fs::canonicalize(path).ok();
+    if own.is_some_and(|own| place(own).is_some_and(|own| place(file) == Some(own))) {
+        return Err("it names itself, another file was expected".to_owned());
+    }
+    let mut reader = Reader { chain: Vec::new(), files: MOST_FILES, bytes: MOST_BYTES };
+    let text = reader.open(file)?;
+    refuse_other(&text)?;
+    Ok(reader.layers(file, text))
 }
 
 /// The document in a text, `extends` among its keys.
@@ -58,11 +83,7 @@ impl Reader {
         for base in take_extends(&mut top).map_or(Ok(Vec::new()), bases)? {
             let file = source.folder().join(&base.name);
             let text = self.open(&file).map_err(|reason| base.refuse(&file, &reason))?;
-            if let Some(line) = no_toml(&text) {
-                // Whatever it is, nothing of it is shown.
-                let reason = format!("line {line} is no TOML");
-                return Err(base.refuse(&file, &reason));
-            }
+            refuse_other(&text).map_err(|reason| base.refuse(&file, &reason))?;
             below = Some(laid_over(below, self.layers(&file, text)?));
         }
         self.chain.pop();
@@ -71,7 +92,8 @@ impl Reader {
 
     /// The text of a file, which from here on is the last of the chain; or why there is none.
     fn open(&mut self, path: &Path) -> Result<String, String> {
-        let canonical = fs::canonicalize(path).map_err(|error| error.to_string())?;
+        let canonical =
+            fs::canonicalize(path).map_err(|error| FileError::from(error).to_string())?;
         if self.chain.contains(&canonical) {
             return Err("it would extend itself".to_owned());
         }
@@ -87,30 +109,22 @@ impl Reader {
     }
 
     fn text(&mut self, path: &Path) -> Result<String, String> {
-        let io = |error: std::io::Error| error.to_string();
-        if !fs::metadata(path).map_err(io)?.is_file() {
-            return Err("a file was expected, it is a folder or a device".to_owned());
-        }
-        let mut bytes = Vec::new();
-        let limit = self.bytes as u64 + 1;
-        File::open(path).map_err(io)?.take(limit).read_to_end(&mut bytes).map_err(io)?;
-        self.bytes = self
-            .bytes
-            .checked_sub(bytes.len())
-            .ok_or_else(|| format!("the document has more than {} MiB", MOST_BYTES >> 20))?;
-        String::from_utf8(bytes).map_err(|error| {
-            let valid = error.utf8_error().valid_up_to();
-            let breaks = error.as_bytes()[..valid].iter().filter(|byte| **byte == b'\n').count();
-            format!("line {} is not UTF-8, a text was expected", breaks + 1)
-        })
+        let text = files::text(path, self.bytes as u64).map_err(|error| match error {
+            FileError::TooLarge { .. } => {
+                format!("the document has more than {} MiB", MOST_BYTES >> 20)
+            }
+            other => other.to_string(),
+        })?;
+        self.bytes -= text.len();
+        Ok(text)
     }
 }
 
-/// The line at which a text stops to be TOML.
-fn no_toml(text: &str) -> Option<usize> {
-    let error = toml::from_str::<toml::Table>(text).err()?;
+/// Refuses a text that is no TOML, whatever it is, with the line at which it stops to be TOML.
+fn refuse_other(text: &str) -> Result<(), String> {
+    let Err(error) = toml::from_str::<toml::Table>(text) else { return Ok(()) };
     let start = text.floor_char_boundary(error.span().map_or(0, |span| span.start));
-    Some(text[..start].matches('\n').count() + 1)
+    Err(format!("line {} is no TOML", text[..start].matches('\n').count() + 1))
 }
 
 fn laid_over(below: Option<Node>, node: Node) -> Node {
@@ -212,7 +226,7 @@ mod tests {
     #[test]
     fn a_file_that_cannot_be_extended_is_told_where_it_is_named() {
         let cases = [
-            ("\"gone.toml\"", "\"gone.toml\"", "No such file"),
+            ("\"gone.toml\"", "\"gone.toml\"", "there is no such file"),
             ("[\"a.toml\", \"folder\"]", "\"folder\"", "it is a folder"),
             ("\"top.toml\"", "\"top.toml\"", "it would extend itself"),
             ("\"bytes.toml\"", "\"bytes.toml\"", "line 2 is not UTF-8"),
@@ -288,8 +302,8 @@ mod tests {
             Err(DocumentError::Unreadable { reason, .. }) => reason,
             other => panic!("{other:?}"),
         };
-        assert!(unreadable("gone.toml").starts_with("No such file"));
-        assert_eq!(unreadable("."), "a file was expected, it is a folder or a device");
+        assert!(unreadable("gone.toml").starts_with("there is no such file"));
+        assert_eq!(unreadable("."), "it is a folder, a file was expected");
     }
 
     #[test]

@@ -29,6 +29,14 @@ impl TextSource {
         }
     }
 
+    /// The file that it was read from.
+    pub(crate) fn file(&self) -> Option<&Path> {
+        match &self.origin {
+            TextOrigin::File(path) => Some(path),
+            TextOrigin::Text(_) | TextOrigin::Assignment => None,
+        }
+    }
+
     /// What stands before line and column; nothing for the command line.
     pub(crate) fn name(&self) -> Option<String> {
         match &self.origin {

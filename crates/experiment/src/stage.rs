@@ -74,7 +74,7 @@ impl StageInputs {
     ///
     /// [`ExperimentError::Stage`].
     pub fn and_file(self, path: &Path) -> Result<Self, ExperimentError> {
-        Ok(self.and(&std::fs::read(path).map_err(stage_error(path))?))
+        Ok(self.and(&files::bytes(path, u64::MAX).map_err(|e| stage_error(path)(e.into()))?))
     }
 
     fn hash(self) -> String {
@@ -125,7 +125,7 @@ impl Stage {
 
     /// The stored product for these inputs, unless a file is missing or changed.
     fn read_product<T: DeserializeOwned>(&self, inputs: &str) -> Option<Stored<T>> {
-        let text = std::fs::read_to_string(&self.file).ok()?;
+        let text = files::text(&self.file, files::KEPT_BYTES).ok()?;
         let stored: Stored<T> = serde_json::from_str(&text).ok()?;
         let is_whole = |(file, hash): (&PathBuf, &String)| {
             sha256(&self.folder.join(file)).is_ok_and(|found| found == *hash)
@@ -158,7 +158,7 @@ fn stage_error(path: &Path) -> impl Fn(std::io::Error) -> ExperimentError {
 /// [`ExperimentError::Stage`].
 pub fn sha256(path: &Path) -> Result<String, ExperimentError> {
     let mut hasher = Sha256::new();
-    let mut file = std::fs::File::open(path).map_err(stage_error(path))?;
+    let mut file = files::open(path).map_err(|e| stage_error(path)(e.into()))?;
     let mut buffer = vec![0; 1 << 16];
     loop {
         match std::io::Read::read(&mut file, &mut buffer).map_err(stage_error(path))? {

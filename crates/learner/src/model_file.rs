@@ -1,4 +1,3 @@
-use std::fs::File;
 use std::panic::catch_unwind;
 use std::path::Path;
 use std::sync::Arc;
@@ -156,7 +155,8 @@ type Columns = Vec<(String, Vec<f64>)>;
 
 fn read(path: &Path) -> Result<(ModelHeader, Columns), String> {
     let say = |e: &dyn std::fmt::Display| e.to_string();
-    let file = File::open(path).map_err(|e| say(&e))?;
+    let file = files::open(path).map_err(|e| say(&e))?;
+    logs::check_parquet_nesting(&file)?;
     let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(|e| say(&e))?;
     let metadata = builder.metadata().file_metadata().key_value_metadata();
     let header = metadata.and_then(|all| all.iter().find(|entry| entry.key == HEADER));

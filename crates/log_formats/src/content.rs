@@ -32,7 +32,7 @@ pub(crate) enum Kind {
 impl Formats {
     /// The content of a file and its kind. A packed file is unpacked once.
     pub(crate) fn content(&self, path: &Path) -> Result<(Kind, File), FormatError> {
-        let file = File::open(path).map_err(|e| FormatError::unreadable(path, &e))?;
+        let file = files::open(path).map_err(|e| FormatError::unreadable(path, &e))?;
         let mut first = Vec::new();
         (&file)
             .take(FIRST_BYTES as u64)

@@ -17,8 +17,8 @@ pub struct RobotFiles {
 impl RobotFiles {
     /// Reads the files of a folder. A URDF alone gets a `robot.toml` that only names it.
     pub(crate) fn read(folder: &Path) -> Option<Self> {
-        let urdf = std::fs::read_to_string(folder.join("robot.urdf")).ok()?;
-        let toml = std::fs::read_to_string(folder.join("robot.toml"));
+        let urdf = files::text(&folder.join("robot.urdf"), files::KEPT_BYTES).ok()?;
+        let toml = files::text(&folder.join("robot.toml"), files::KEPT_BYTES);
         Some(Self { urdf, toml: toml.unwrap_or_else(|_| "urdf = \"robot.urdf\"\n".to_owned()) })
     }
 

@@ -152,7 +152,7 @@ impl TruthSheet {
     pub fn open(folder: &Path) -> Result<Self, PopulationError> {
         let path = folder.join(Self::FILE);
         let unreadable = |reason| PopulationError::UnreadableSheet { path: path.clone(), reason };
-        let text = std::fs::read_to_string(&path).map_err(|e| unreadable(e.to_string()))?;
+        let text = files::text(&path, files::KEPT_BYTES).map_err(|e| unreadable(e.to_string()))?;
         serde_json::from_str(&text).map_err(|e| unreadable(e.to_string()))
     }
 

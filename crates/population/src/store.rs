@@ -131,12 +131,13 @@ impl Store {
             let lock = File::create(self.root.join("locks").join(key)).map_err(&at)?;
             lock.lock().map_err(&at)?;
             let unreadable = |reason| PopulationError::Folder { path: folder.clone(), reason };
-            let text =
-                fs::read_to_string(folder.join(ENTRY)).map_err(|e| unreadable(e.to_string()))?;
+            let text = files::text(&folder.join(ENTRY), files::KEPT_BYTES)
+                .map_err(|e| unreadable(e.to_string()))?;
             let mut entry: Entry =
                 serde_json::from_str(&text).map_err(|e| unreadable(e.to_string()))?;
             sheet_again(&folder)?.write(&folder)?;
-            let sheet = fs::read(folder.join(TruthSheet::FILE)).map_err(&at)?;
+            let sheet = files::bytes(&folder.join(TruthSheet::FILE), files::KEPT_BYTES)
+                .map_err(|e| at(e.into()))?;
             entry.files.insert(TruthSheet::FILE.to_owned(), hexadecimal(&sheet));
             entry.write(&folder)?;
             on_trial(&folder);
@@ -201,7 +202,7 @@ fn whole(folder: &Path) -> Result<(), Option<String>> {
     if !folder.exists() {
         return Err(None);
     }
-    let text = fs::read_to_string(folder.join(ENTRY))
+    let text = files::text(&folder.join(ENTRY), files::KEPT_BYTES)
         .map_err(|e| Some(format!("{ENTRY} cannot be read: {e}")))?;
     let entry: Entry =
         serde_json::from_str(&text).map_err(|e| Some(format!("{ENTRY} is none: {e}")))?;
@@ -228,7 +229,7 @@ fn hashes(folder: &Path) -> std::io::Result<BTreeMap<String, String>> {
             }
             let name = path.strip_prefix(folder).unwrap_or(&path).to_string_lossy().into_owned();
             if name != ENTRY {
-                all.insert(name, hexadecimal(&fs::read(&path)?));
+                all.insert(name, hexadecimal(&files::bytes(&path, u64::MAX)?));
             }
         }
     }

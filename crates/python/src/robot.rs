@@ -165,7 +165,7 @@ impl PyRobot {
             return Ok(text.clone());
         }
         let path = &self.loaded.urdf_path;
-        std::fs::read_to_string(path).map_err(|error| {
+        files::text(path, files::KEPT_BYTES).map_err(|error| {
             let reason = error.to_string();
             exception(RobotError::Unreadable { path: path.clone(), reason })
         })

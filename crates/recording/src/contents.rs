@@ -47,7 +47,7 @@ impl Contents {
     pub fn read(path: &Path) -> Result<Self, RecordingError> {
         let unreadable =
             |reason: String| RecordingError::Unreadable { path: path.to_owned(), reason };
-        let mut file = File::open(path).map_err(|error| unreadable(error.to_string()))?;
+        let mut file = files::open(path).map_err(|error| unreadable(error.to_string()))?;
         let is_ended = has_footer(&mut file).map_err(|error| unreadable(error.to_string()))?;
         let (mut contents, mut messages, mut cut) = (Self::default(), 0_usize, None);
         for message in DecoderApp::decode_lazy(BufReader::new(file)) {

@@ -1,6 +1,6 @@
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
+
+use files::{FileError, KEPT_BYTES};
 
 use crate::error::RobotError;
 use crate::loaded::Loaded;
@@ -15,9 +15,6 @@ use crate::structure::robot::Robot;
 use crate::warning::RobotWarning;
 use crate::whole_robot::WholeRobot;
 use crate::{mjcf, urdf};
-
-/// Largest description that is read (bytes). Without its meshes, a URDF has some 100 kB.
-const LARGEST_FILE: u64 = 64 << 20;
 
 /// Most joints of a robot: the cost grows with the cube of their number, and humanoids have fewer.
 const MOST_JOINTS: usize = 100;
@@ -69,12 +66,13 @@ impl Robot {
         let (file, urdf_path, text) = if is_toml {
             let file = DescriptionFile::parse(&text, path)?;
             let urdf_path = file.urdf_path();
-            let text = read_regular(&urdf_path).map_err(|e| file.of_urdf(&e))?;
+            let text = read(&urdf_path).map_err(|e| file.of_urdf(&e))?;
             (Some(file), urdf_path, text)
         } else {
             (None, path.to_owned(), text)
         };
-        let model = read_model(&text, &urdf_path).map_err(|e| e.in_file(&urdf_path))?;
+        let model =
+            read_model(&text, &urdf_path, options.meshes).map_err(|e| e.in_file(&urdf_path))?;
         let part = file.as_ref().map(|file| file.part(&model)).transpose()?.unwrap_or_default();
         let mut loaded =
             Loaded::from_urdf(&model, part, &urdf_path).map_err(|e| e.in_file(path))?;
@@ -225,9 +223,20 @@ impl Loaded {
 }
 
 /// Reads the text of a URDF or an MJCF.
-fn read_model(text: &str, path: &Path) -> Result<WholeRobot, RobotError> {
+///
+/// What an MJCF includes lies below its folder, unless `folders` says otherwise.
+fn read_model(text: &str, path: &Path, folders: MeshFolders) -> Result<WholeRobot, RobotError> {
     if mjcf::element::is_mjcf(text) {
-        mjcf::parse::parse(text, path.parent().unwrap_or(Path::new("")), &read)
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let read_below = |path: &Path| match folders {
+            MeshFolders::Below if path.exists() && !files::is_below(path, folder) => {
+                let reason =
+                    format!("it lies outside of {}, --allow-outside reads it", folder_name(folder));
+                Err(RobotError::Unreadable { path: path.to_owned(), reason })
+            }
+            _ => read(path),
+        };
+        mjcf::parse::parse(text, folder, &read_below)
     } else {
         urdf::parse::parse(text)
     }
@@ -245,37 +254,17 @@ fn whole_limits(whole: &Robot, joint: &str) -> Option<(f64, f64)> {
     whole.joint_index(joint).and_then(|i| whole.links()[i].joint.limits.position)
 }
 
-/// Reads a file that another file names. Reading a pipe would block, so it is refused.
-fn read_regular(path: &Path) -> Result<String, RobotError> {
-    let reason = "it is no regular file, a URDF was expected".to_owned();
-    match std::fs::metadata(path) {
-        Ok(found) if !found.is_file() && !found.is_dir() => {
-            Err(RobotError::Unreadable { path: path.to_owned(), reason })
-        }
-        _ => read(path),
+/// A folder as it is named in messages.
+fn folder_name(folder: &Path) -> String {
+    match folder.as_os_str().is_empty() {
+        true => "the working folder".to_owned(),
+        false => folder.display().to_string(),
     }
 }
 
 /// The text of a file, without a byte-order mark.
 fn read(path: &Path) -> Result<String, RobotError> {
-    let unreadable = |reason: String| RobotError::Unreadable { path: path.to_owned(), reason };
-    if path.is_dir() {
-        let reason = match path.join("robot.toml") {
-            inside if inside.is_file() => format!("it is a directory, give {}", inside.display()),
-            _ => "it is a directory, a URDF or a robot.toml was expected".into(),
-        };
-        return Err(unreadable(reason));
-    }
-    let file = File::open(path).map_err(|e| unreadable(reason(&e)))?;
-    let mut bytes = Vec::new();
-    file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(|e| unreadable(reason(&e)))?;
-    if bytes.len() as u64 > LARGEST_FILE {
-        return Err(RobotError::TooLarge { limit: LARGEST_FILE }.in_file(path));
-    }
-    let text = String::from_utf8(bytes).map_err(|e| {
-        let at = e.utf8_error().valid_up_to();
-        unreadable(format!("byte {at} is not UTF-8, a text file was expected"))
-    })?;
+    let text = files::text(path, KEPT_BYTES).map_err(|error| unusable(path, error))?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
     if text.trim().is_empty() {
         return Err(RobotError::Empty.in_file(path));
@@ -283,9 +272,23 @@ fn read(path: &Path) -> Result<String, RobotError> {
     Ok(text.to_owned())
 }
 
-fn reason(error: &std::io::Error) -> String {
-    if error.kind() == std::io::ErrorKind::NotFound {
-        return "there is no such file, a URDF or a robot.toml was expected".to_owned();
-    }
-    error.to_string()
+/// What is said of a file that is no description.
+fn unusable(path: &Path, error: FileError) -> RobotError {
+    let inside = path.join("robot.toml");
+    let reason = match error {
+        FileError::Missing => "there is no such file, a URDF or a robot.toml was expected".into(),
+        FileError::Folder if inside.is_file() => {
+            format!("it is a directory, give {}", inside.display())
+        }
+        FileError::Folder => "it is a directory, a URDF or a robot.toml was expected".into(),
+        FileError::NotRegular => "it is no regular file, a URDF was expected".into(),
+        FileError::TooLarge { most, .. } => {
+            return RobotError::TooLarge { limit: most }.in_file(path);
+        }
+        FileError::NotText { byte, .. } => {
+            format!("byte {byte} is not UTF-8, a text file was expected")
+        }
+        other => other.to_string(),
+    };
+    RobotError::Unreadable { path: path.to_owned(), reason }
 }

@@ -79,7 +79,7 @@ impl AccountShard {
         campaign: &str,
         judgement: &Judgement,
     ) -> Option<Result<TrialAccount, String>> {
-        let text = std::fs::read_to_string(path).ok()?;
+        let text = files::text(path, files::KEPT_BYTES).ok()?;
         let shard: Self = serde_json::from_str(&text).ok()?;
         (shard.judged == identity(campaign, judgement)).then_some(shard.account)
     }

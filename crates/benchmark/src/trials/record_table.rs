@@ -1,4 +1,3 @@
-use std::fs::File;
 use std::panic::catch_unwind;
 use std::path::Path;
 
@@ -42,7 +41,8 @@ impl Record {
 }
 
 fn read(path: &Path) -> Result<Vec<Record>, String> {
-    let file = File::open(path).map_err(|e| e.to_string())?;
+    let file = files::open(path).map_err(|e| e.to_string())?;
+    logs::check_parquet_nesting(&file)?;
     let builder = ParquetRecordBatchReaderBuilder::try_new(file).map_err(|e| e.to_string())?;
     let mut records = Vec::new();
     for batch in builder.build().map_err(|e| e.to_string())? {

@@ -231,12 +231,7 @@ fn content_of(path: &Path) -> Result<String, BenchmarkError> {
 /// The scenario with the settings, checked.
 fn scenario(document: &Document, spec: &CampaignSpec) -> Result<String, BenchmarkError> {
     let key = KeyPath::root().key("scenario");
-    let file = document.directory_of(&key).join(&spec.scenario);
-    if !file.is_file() {
-        let message = format!("{}: there is no such file", file.display());
-        return Err(document.mistake(&key, message, None).into());
-    }
-    let mut scenario = Document::read(&file)?;
+    let (mut scenario, _) = document.read_named(&key, &spec.scenario)?;
     // A count is needed beside what a setting may say of hidden effects.
     for setting in Hidden::Nothing.settings() {
         scenario.set(&setting)?;

@@ -331,7 +331,7 @@ fn skew_of(described: &Robot, extended: &Robot) -> Option<String> {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, ReportError> {
-    std::fs::read(path)
+    files::bytes(path, files::KEPT_BYTES)
         .map_err(|e| ReportError::Unreadable { path: path.to_owned(), reason: e.to_string() })
 }
 

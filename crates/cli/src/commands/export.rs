@@ -94,7 +94,7 @@ struct Written {
 pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let path = description_file(&arguments.path)?;
     let loaded = arguments.part.load(&path)?;
-    let source = std::fs::read_to_string(&loaded.urdf_path).map_err(|error| {
+    let source = files::text(&loaded.urdf_path, files::KEPT_BYTES).map_err(|error| {
         CliError::Robot(robot::RobotError::Unreadable {
             path: loaded.urdf_path.clone(),
             reason: error.to_string(),

@@ -23,7 +23,7 @@ pub(super) fn file(name: &str, environment: &Environment) -> Result<PathBuf, Str
         ));
     };
     let read = |path: &Path| {
-        std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
+        files::text(path, files::KEPT_BYTES).map_err(|error| format!("{}: {error}", path.display()))
     };
     let (module, repositories) = (read(&module)?, read(&package.join("_repositories.py"))?);
     let cache = environment.folder("ROBOT_DESCRIPTIONS_CACHE");

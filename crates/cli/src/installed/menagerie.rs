@@ -39,7 +39,7 @@ pub(super) fn file(name: &str, environment: &Environment) -> Result<PathBuf, Str
     let package = package.ok_or_else(|| not_installed("mujoco_menagerie", "mujoco-menagerie"))?;
     let registry = package.join("registry.json");
     let unreadable = |reason: String| format!("{}: {reason}", registry.display());
-    let text = std::fs::read_to_string(&registry).map_err(|e| unreadable(e.to_string()))?;
+    let text = files::text(&registry, files::KEPT_BYTES).map_err(|e| unreadable(e.to_string()))?;
     let registry: Registry = serde_json::from_str(&text).map_err(|e| unreadable(e.to_string()))?;
     let (robot, entry, model) = find(&registry, name)?;
     let point = entry.entry_points.get(model).filter(|point| is_plain(&point.file));

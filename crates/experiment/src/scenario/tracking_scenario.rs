@@ -184,12 +184,7 @@ pub fn document_at(
     key: &KeyPath,
     named: &Path,
 ) -> Result<(Document, PathBuf), ExperimentError> {
-    let file = document.directory_of(key).join(named);
-    if !file.is_file() {
-        let message = format!("{}: there is no such file", file.display());
-        return Err(document.mistake(key, message, None).into());
-    }
-    Ok((Document::read(&file)?, file))
+    Ok(document.read_named(key, named)?)
 }
 
 /// Refuses a list of runs in a document that names a run unknown to the plant.

@@ -29,7 +29,7 @@ impl Blinded {
     pub fn open(folder: &Path) -> Result<Self, ExperimentError> {
         let path = folder.join(Self::FILE);
         let unreadable = |reason| ExperimentError::UnreadableTruth { path: path.clone(), reason };
-        let text = std::fs::read_to_string(&path).map_err(|e| unreadable(e.to_string()))?;
+        let text = files::text(&path, files::KEPT_BYTES).map_err(|e| unreadable(e.to_string()))?;
         serde_json::from_str(&text).map_err(|e| unreadable(e.to_string()))
     }
 }

@@ -1,4 +1,4 @@
-use std::{fs::File, io::Read, path::Path};
+use std::{io::Read, path::Path};
 
 use sha2::{Digest, Sha256};
 
@@ -11,7 +11,7 @@ pub(crate) fn sha256_of_files<'a>(
     let mut hasher = Sha256::new();
     let mut buffer = vec![0; 1 << 16];
     for path in files {
-        let mut file = File::open(path).map_err(|e| FormatError::unreadable(path, &e))?;
+        let mut file = files::open(path).map_err(|e| FormatError::unreadable(path, &e))?;
         loop {
             match file.read(&mut buffer).map_err(|e| FormatError::unreadable(path, &e))? {
                 0 => break,

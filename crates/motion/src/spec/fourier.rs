@@ -93,12 +93,13 @@ impl Fourier {
 }
 
 fn read(path: &Path) -> Result<FourierSeries, String> {
-    let size = std::fs::metadata(path).map_err(|e| e.to_string())?.len();
-    if size > LARGEST_FILE {
-        return Err(format!("found {size} bytes, at most {LARGEST_FILE} were expected"));
-    }
-    let text = std::fs::read_to_string(path).map_err(|e| e.to_string())?;
-    toml::from_str(&text).map_err(|e| e.to_string())
+    let text = files::text(path, LARGEST_FILE).map_err(|e| e.to_string())?;
+    // What is no TOML is told without its text.
+    let table: toml::Table = toml::from_str(&text).map_err(|e| {
+        let start = text.floor_char_boundary(e.span().map_or(0, |span| span.start));
+        format!("line {} is no TOML", text[..start].matches('\n').count() + 1)
+    })?;
+    table.try_into().map_err(|e: toml::de::Error| e.message().to_owned())
 }
 
 impl FourierSeries {

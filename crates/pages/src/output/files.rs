@@ -17,7 +17,7 @@ pub fn sha256_of(path: &Path) -> Result<String, ReportError> {
         path: path.to_owned(),
         reason: e.to_string(),
     };
-    let mut file = fs::File::open(path).map_err(unreadable)?;
+    let mut file = ::files::open(path).map_err(|e| unreadable(e.into()))?;
     let mut hasher = Sha256::new();
     let mut buffer = vec![0; 1 << 16];
     loop {

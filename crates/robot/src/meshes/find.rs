@@ -23,12 +23,11 @@ impl Looks {
         packages: &Packages,
         folders: MeshFolders,
     ) -> Option<RobotWarning> {
-        let below = folder_of(urdf).canonicalize().ok();
+        let folder = folder_of(urdf);
         let is_let_in = |name: &str, path: &Path| {
-            let is_below = |path: PathBuf| below.as_ref().is_some_and(|b| path.starts_with(b));
             folders == MeshFolders::Anywhere
                 || name.starts_with(PACKAGE)
-                || path.canonicalize().is_ok_and(is_below)
+                || files::is_below(path, folder)
         };
         let mut missing = vec![];
         let mut has_file = |visual: &mut Visual| {

@@ -22,7 +22,7 @@ const STL_TRIANGLE: u64 = 50;
 /// The extension alone is not trusted, since the content of the file would be copied into a recording.
 pub(crate) fn is_mesh(path: &Path, bytes: u64) -> bool {
     let kind = path.extension().and_then(|e| e.to_str()).map(str::to_lowercase);
-    let Ok(mut file) = File::open(path) else { return false };
+    let Ok(mut file) = files::open(path) else { return false };
     let head = head(&mut file);
     let is_text = !head.contains(&0);
     let text = String::from_utf8_lossy(&head);

@@ -84,7 +84,7 @@ impl DiagnosisFile {
     /// A file that is none, or one of another robot.
     pub fn read(path: &Path, robot: &Robot) -> Result<Self, DesignError> {
         let file = file_of(path);
-        let text = std::fs::read_to_string(&file)
+        let text = files::text(&file, files::KEPT_BYTES)
             .map_err(|e| DesignError::Diagnosis { path: file.clone(), reason: e.to_string() })?;
         Self::parse(&text, &file, robot).map(|read| Self { path: path.to_owned(), ..read })
     }

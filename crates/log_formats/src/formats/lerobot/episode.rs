@@ -1,4 +1,4 @@
-use std::{collections::BTreeMap, fs::File, io::Read, ops::Range, path::Path, sync::Arc};
+use std::{collections::BTreeMap, ops::Range, path::Path, sync::Arc};
 
 use serde::Deserialize;
 use serde_json::Value;
@@ -132,10 +132,8 @@ impl Opened for Episode {
 
 fn read_info(path: &Path) -> Result<Info, FormatError> {
     let path = path.join(DESCRIPTION);
-    let mut text = String::new();
-    let file = File::open(&path).map_err(|e| FormatError::unreadable(&path, &e))?;
-    let read = file.take(LONGEST_DESCRIPTION).read_to_string(&mut text);
-    read.map_err(|e| FormatError::unreadable(&path, &e))?;
+    let text = files::text(&path, LONGEST_DESCRIPTION);
+    let text = text.map_err(|e| FormatError::unreadable(&path, &e))?;
     serde_json::from_str(&text).map_err(|e| FormatError::broken(&path, NAME, &e))
 }
 

@@ -1,0 +1,11 @@
+//! Files that someone names, read in one way.
+//!
+//! Whoever names a file – a person on the command line, a key of a document, an attribute of a description – may
+//! name anything: a pipe that never ends, a device, a folder, the passwords of the computer. What is read here
+//! is a regular file of a bounded size, and an error says what was found without a word of its content.
+
+mod error;
+mod named_file;
+
+pub use error::FileError;
+pub use named_file::{KEPT_BYTES, bytes, is_below, open, text};
