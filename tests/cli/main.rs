@@ -38,6 +38,8 @@ mod servo;
 mod simulate;
 #[cfg(target_os = "linux")]
 mod sockets;
+#[cfg(target_os = "linux")]
+mod terminal;
 mod track;
 mod view;
 #[cfg(target_os = "linux")]

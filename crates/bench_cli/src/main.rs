@@ -21,8 +21,12 @@ use crate::exit_status::BenchExitStatus;
 
 fn main() -> ExitCode {
     let command_line: Vec<OsString> = std::env::args_os().collect();
-    let arguments = Arguments::parse_from(&command_line);
+    let read = Arguments::try_parse_from(&command_line);
     cli::keep_command_line("plumbline-bench", command_line);
+    let arguments = match read {
+        Ok(arguments) => arguments,
+        Err(error) => return ExitCode::from(cli::answer_of_clap(&error)),
+    };
     match run(&arguments) {
         Ok(BenchExitStatus::Good) => ExitCode::SUCCESS,
         Ok(BenchExitStatus::Gap) => ExitCode::FAILURE,

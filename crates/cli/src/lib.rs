@@ -17,6 +17,7 @@ mod diagnosed_input;
 mod effect_facts;
 mod effect_name;
 mod error;
+mod escape;
 mod exit_status;
 mod help_texts;
 mod input;
@@ -66,6 +67,7 @@ pub use crate::diagnosed_input::options_of_columns;
 pub use crate::effect_facts::facts as effect_facts;
 pub use crate::effect_name::find_effect;
 pub use crate::error::CliError;
+pub use crate::escape::escape_json;
 pub use crate::input::{
     PartArguments, SearchArguments, hash, hashes_of, provenance, provenance_of,
 };
@@ -81,13 +83,31 @@ pub use crate::watch::Watch;
 /// Runs the program with a command line, whose first argument is the program's own name, and gives its
 /// exit code.
 ///
-/// A command line that cannot be understood, or that asks for help, ends the process.
+/// Without a command that can be understood it is the help that was asked for, or what is wrong with the command line.
 pub fn main(command_line: Vec<OsString>) -> u8 {
-    let matches = command().get_matches_from(&command_line);
-    let arguments = Arguments::from_arg_matches(&matches)
-        .unwrap_or_else(|error| error.format(&mut command()).exit());
+    let read = command().try_get_matches_from(&command_line).and_then(|matches| {
+        Arguments::from_arg_matches(&matches).map_err(|error| error.format(&mut command()))
+    });
     invocation::keep("plumbline", command_line);
-    match run(&arguments) {
+    match read.map_err(|error| answer_of_clap(&error)).map(|arguments| run(&arguments)) {
+        Err(code) => code,
+        Ok(ran) => exit_code(ran),
+    }
+}
+
+/// Prints the help that was asked for, or what is wrong with the command line, and gives the exit code.
+pub fn answer_of_clap(error: &clap::Error) -> u8 {
+    let text = error.render().ansi().to_string();
+    if error.use_stderr() {
+        messages::tell(&text.trim_end_matches('\n'));
+    } else if let Err(error) = print(&text) {
+        return exit_code(Err(error));
+    }
+    u8::try_from(error.exit_code()).unwrap_or(2)
+}
+
+fn exit_code(ran: Result<ExitStatus, CliError>) -> u8 {
+    match ran {
         Ok(status) => status.code(),
         Err(error) => {
             error.print();

@@ -3,12 +3,14 @@ use std::io::Write;
 
 use anstyle::{AnsiColor, Style};
 
-/// Prints a line on the standard error, its colours only where they are wanted.
+use crate::escape::escape;
+
+/// Prints a line on the standard error, its colours only where they are wanted and nothing else that a terminal obeys.
 ///
 /// A line that cannot be written, as on a full disk, is left out; the answer and the exit code do
 /// not depend on it.
 pub fn tell(what: &dyn Display) {
-    let _ = writeln!(anstream::stderr().lock(), "{what}");
+    let _ = writeln!(anstream::stderr().lock(), "{}", escape(&what.to_string()));
 }
 
 /// Prints a warning on the standard error.

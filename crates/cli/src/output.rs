@@ -7,10 +7,11 @@ use report::ReportError;
 use serde::Serialize;
 
 use crate::error::CliError;
+use crate::escape::{escape, escape_json};
 use crate::messages::tell;
 use crate::quiet::Quiet;
 
-/// Prints text on the standard output, its colours only where they are wanted.
+/// Prints text on the standard output, its colours only where they are wanted and nothing else that a terminal obeys.
 ///
 /// A reader that has gone has read what it wanted: that is no error.
 ///
@@ -19,7 +20,7 @@ use crate::quiet::Quiet;
 /// [`CliError::Output`].
 pub fn print(text: &str) -> Result<(), CliError> {
     let mut out = anstream::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match out.write_all(escape(text).as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(error.into()),
         _ => Ok(()),
     }
@@ -32,7 +33,7 @@ pub fn print(text: &str) -> Result<(), CliError> {
 /// [`CliError::Output`].
 pub fn print_json(value: &impl Serialize) -> Result<(), CliError> {
     let text = serde_json::to_string_pretty(value).map_err(std::io::Error::from)?;
-    print(&(text + "\n"))
+    print(&escape_json(&(text + "\n")))
 }
 
 /// Prints the answer of a command: its text and where the files lie, or its JSON. With JSON, where
@@ -47,7 +48,7 @@ pub fn print_answer(
     text: impl FnOnce() -> String,
     closing: &str,
 ) -> Result<(), CliError> {
-    json.map_or(Ok(()), print)?;
+    json.map_or(Ok(()), |json| print(&escape_json(json)))?;
     match (quiet, json) {
         (true, _) => {}
         (false, Some(_)) => tell(&closing.trim_end()),

@@ -2,6 +2,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use crate::escape::escape_line;
 use crate::messages::tell;
 use crate::quiet::Quiet;
 
@@ -53,7 +54,7 @@ impl diagnosis::DiagnosisProgress for Bar {
         self.appear_when_due();
         self.bar.set_length(steps as u64);
         self.bar.set_position(0);
-        self.bar.set_message(name.to_owned());
+        self.bar.set_message(escape_line(name));
     }
 
     fn step(&self) {
@@ -84,7 +85,7 @@ impl Line {
     /// Shows these words.
     pub fn say(&self, words: &str) {
         self.0.appear_when_due();
-        self.0.bar.set_message(words.to_owned());
+        self.0.bar.set_message(escape_line(words));
     }
 
     /// Leaves words on the standard error, terminal or not, above the line.

@@ -16,6 +16,7 @@ use residual::ResidualFile;
 use crate::columns::LogArguments;
 use crate::diagnosed_input::{json_in, options_of};
 use crate::error::CliError;
+use crate::escape::escape_line;
 use crate::exit_status::ExitStatus;
 use crate::input::{RobotArguments, SearchArguments, hashes_of};
 use crate::input_warnings::input_warnings;
@@ -286,13 +287,18 @@ pub fn write_recording(
     Ok(path)
 }
 
+/// A comment of TOML, on one line whatever names stand in it.
+fn comment(words: &str) -> String {
+    format!("# {}\n", escape_line(words))
+}
+
 /// The extended robot as a `robot.toml`, its findings as comments on top.
 fn extended_toml(
     loaded: &Loaded,
     extended: &Robot,
     diagnosis: &Diagnosis,
 ) -> Result<String, CliError> {
-    let mut text = format!("# {} with the findings of diagnosis.json\n", extended.name());
+    let mut text = comment(&format!("{} with the findings of diagnosis.json", extended.name()));
     if !loaded.part.is_whole() {
         text.push_str("# robot.urdf has more joints: those that are not named here are locked\n");
     }
@@ -302,14 +308,16 @@ fn extended_toml(
             *first = format!("{}: {first}", finding.at.words());
         }
         let lines = report::pack(sizes.iter().map(String::as_str), "; ", COMMENT_WIDTH);
-        text.push_str(&format!("# {}\n", lines.join("\n#   ")));
+        for (i, line) in lines.iter().enumerate() {
+            text.push_str(&comment(&format!("{}{line}", if i == 0 { "" } else { "  " })));
+        }
     }
     if let Some(also) = &diagnosis.also_fitted {
         let mut places: Vec<String> = also.parameters.iter().map(|p| p.at.words()).collect();
         places.dedup();
         let lines = report::pack(places.iter().map(String::as_str), "; ", COMMENT_WIDTH);
         text.push_str("#\n# Fitted without a name (--only-findings leaves these out):\n");
-        text.push_str(&format!("# {}\n", lines.join("\n# ")));
+        lines.iter().for_each(|line| text.push_str(&comment(line)));
     }
     let is_named = diagnosis.findings.iter().any(|f| f.at.effect == EffectKind::TimeSkew);
     if let Some(skew_ms) = skew_of(&loaded.robot, extended).filter(|_| !is_named) {

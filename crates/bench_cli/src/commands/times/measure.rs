@@ -71,7 +71,7 @@ pub fn run(arguments: &Arguments) -> Result<BenchExitStatus, BenchError> {
         report::write_folder(out, &files)?;
     }
     match (arguments.quiet, arguments.json) {
-        (_, true) => print(&json)?,
+        (_, true) => print(&cli::escape_json(&json))?,
         (true, false) => {}
         (false, false) => print(&text(arguments, &times))?,
     }
