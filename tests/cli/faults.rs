@@ -126,6 +126,7 @@ impl Place {
         assert_eq!(answer.code, *code, "{}: {}", COMMANDS[index].0, answer.err);
         assert!(content(&self.same(index)) == *file, "{}", COMMANDS[index].0);
         assert_whole(&self.out(), Growing::Refused);
+        assert!(temporary(&self.out()).is_empty(), "{}", COMMANDS[index].0);
     }
 
     fn campaign(&mut self, [ends, kills, disks]: [usize; 3]) {
@@ -150,6 +151,19 @@ fn largest_kb(folder: &Path) -> usize {
         if path.is_dir() { largest_kb(&path) } else { fs::read(path).unwrap().len() / 1024 }
     };
     fs::read_dir(folder).unwrap().map(|entry| size(entry.unwrap().path())).max().unwrap_or(0)
+}
+
+/// The files under temporary names in and below a folder.
+fn temporary(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let of = |path: PathBuf| match path.is_dir() {
+        true => temporary(&path),
+        false => vec![path],
+    };
+    let is_temporary = |path: &PathBuf| {
+        path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(".plumbline-"))
+    };
+    entries.flat_map(of).filter(is_temporary).collect()
 }
 
 /// The arguments of a command.

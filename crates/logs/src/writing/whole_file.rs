@@ -1,14 +1,17 @@
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::TempPath;
 
+use crate::writing::leftovers;
+
 /// A file that appears under its name only when it is complete.
 ///
 /// It is written under a temporary name in the same folder. [`WholeFile::finish`] flushes its bytes to the disk,
 /// renames the file, and flushes the new name to the disk. Until then an earlier file of that name is untouched.
-/// A `WholeFile` that is dropped before leaves no file.
+/// A `WholeFile` that is dropped before leaves no file; one that a killed process has left is removed when the next
+/// process makes a file in the folder.
 #[derive(Debug)]
 pub struct WholeFile {
     path: PathBuf,
@@ -32,15 +35,7 @@ impl WholeFile {
     ///
     /// The error of the operating system.
     pub fn create_in(folder: &Path, path: &Path) -> io::Result<Self> {
-        let mut builder = tempfile::Builder::new();
-        // The same rights as any new file, not those of a private temporary one.
-        #[cfg(unix)]
-        let builder = {
-            use std::os::unix::fs::PermissionsExt;
-            builder.permissions(fs::Permissions::from_mode(0o666))
-        };
-        let temporary = builder.prefix(".plumbline-").tempfile_in(folder).map_err(plain)?;
-        let (file, name) = temporary.into_parts();
+        let (file, name) = leftovers::create(folder).map_err(plain)?;
         Ok(Self { path: path.to_owned(), file: BufWriter::new(file), name })
     }
 
@@ -100,6 +95,8 @@ fn plain(error: io::Error) -> io::Error {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]
