@@ -66,11 +66,12 @@ fn run(folder: &Path, arguments: &[String]) -> Answer {
         .unwrap();
     let start = Instant::now();
     while child.try_wait().unwrap().is_none() {
-        if start.elapsed() > PATIENCE {
+        let waits = start.elapsed() > PATIENCE;
+        if waits {
             child.kill().unwrap();
             child.wait().unwrap();
-            panic!("{arguments:?} waits");
         }
+        assert!(!waits, "{arguments:?} waits");
         sleep(Duration::from_millis(2));
     }
     let text = |name: &str| String::from_utf8(fs::read(folder.join(name)).unwrap()).unwrap();

@@ -205,9 +205,10 @@ impl Inputs<'_> {
     }
 }
 
-/// Whether a finding lowers the held-out error of some joint by more than the practical share there.
+/// Whether a finding lowers the held-out error of its joints, and that of some joint by more than the practical share there.
 fn matters(found: &FindingWithFall, least: &[f64]) -> bool {
-    found.fall.iter().zip(least).any(|(fall, least)| *fall > least.powi(2))
+    let is_large = |(fall, least): (&f64, &f64)| *fall > least.powi(2);
+    found.finding.held_out_gain > 0.0 && found.fall.iter().zip(least).any(is_large)
 }
 
 /// Number of independent samples in the band if the residual were noise: two per 2.5 samples.

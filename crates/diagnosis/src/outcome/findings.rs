@@ -39,7 +39,7 @@ impl Inputs<'_> {
         let grams = Grams::new(&design, problem.blocks);
         let repaired = &problem.about(&design, &grams);
         let same = |g: &usize| design.find(problem.design.groups[*g].hypothesis);
-        let about = Selection { problem: repaired, robot: &fitted.robot, ..*selection };
+        let about = Selection { problem: repaired, robot: &fitted.robot, ..selection.clone() };
         let unnamed = Unnamed::new(&about, &model.iter().filter_map(same).collect());
         let found = unnamed.map_or_else(Vec::new, |unnamed| builder.findings(&last, &unnamed));
         let unseen_friction = builder.unseen_friction();

@@ -13,7 +13,7 @@ use crate::search::search_result::SearchResult;
 use crate::search::select::Selection;
 use crate::search::twins::Twins;
 
-/// Most rounds in which a finding is exchanged for a better twin.
+/// Most rounds in which a finding is exchanged for a better twin, or another enters.
 const EXCHANGES: usize = 4;
 
 /// A model whose sizes are determined and constant, the robot with it, and what left.
@@ -25,8 +25,8 @@ pub(crate) struct Accepted {
 }
 
 impl Inputs<'_> {
-    /// Takes changes that are admitted about the last fit until there is none, and exchanges findings for their twins
-    /// until no twin does better.
+    /// Takes changes that are admitted about the last fit until there is none, exchanges findings for their twins until no
+    /// twin does better, and lets in what is admitted beside what stayed.
     pub fn accept_best_twins(
         &self,
         dataset: &Dataset,
@@ -34,16 +34,17 @@ impl Inputs<'_> {
     ) -> Result<Accepted, DiagnosisError> {
         let selection = dataset.selection(problem);
         let twins = Twins { inputs: self, selection: &selection };
+        let (mut left, mut tried) = (EXCHANGES, model.clone());
         let (model, fitted) = (model.clone(), fitted.clone());
         let mut accepted =
             self.accept(&selection, Accepted { model, fitted, ledger: Ledger::default() })?;
-        let mut left = EXCHANGES;
         loop {
             let Accepted { model, fitted, ledger } = &mut accepted;
             let better = twins.compare(model, fitted, ledger)?;
-            let Some(model) = better.filter(|m| left > 0 && !ledger.refuses_any(m)) else {
-                return Ok(accepted);
-            };
+            let better = better.filter(|m| !ledger.refuses_any(m));
+            let next = better.or_else(|| entry_beside(&selection, model, ledger, &tried));
+            let Some(model) = next.filter(|_| left > 0) else { return Ok(accepted) };
+            tried.extend(&model);
             let fitted = fit_model(self.robot, &self.log, problem, &model)?;
             accepted = self.accept(&selection, Accepted { model, fitted, ..accepted })?;
             left -= 1;
@@ -127,4 +128,20 @@ impl Inputs<'_> {
         let last = LastFit::new(fitted.last_fit(first), &fitted.weights, question);
         ModelState::new(selection.problem, model.clone()).map(|state| state.about(last))
     }
+}
+
+/// A model with what enters it beside what left because its size would have to vary. What was refused, or was `tried`, may not
+/// enter.
+fn entry_beside(
+    selection: &Selection,
+    model: &HypothesisSet,
+    ledger: &Ledger,
+    tried: &HypothesisSet,
+) -> Option<HypothesisSet> {
+    let barred = ledger.hypotheses().chain(tried.iter().copied()).collect();
+    let selection = Selection { barred, ..selection.clone() };
+    let varying: HypothesisSet = ledger.varying().collect();
+    let whole = model.union(&varying).copied().collect();
+    let larger = selection.best_entry(&ModelState::new(selection.problem, whole)?)?.model;
+    Some(larger.difference(&varying).copied().collect())
 }

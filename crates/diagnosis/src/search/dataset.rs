@@ -5,7 +5,7 @@ use crate::columns::stratum::Stratum;
 use crate::regression::blocks::Block;
 use crate::regression::gram::Grams;
 use crate::regression::noise::Noise;
-use crate::regression::problem::Problem;
+use crate::regression::problem::{HypothesisSet, Problem};
 use crate::search::friction_error::FrictionError;
 use crate::search::select::Selection;
 use crate::thresholds::Thresholds;
@@ -56,7 +56,7 @@ impl<'a> Dataset<'a> {
             robot: self.robot,
             practical: self.practical,
             friction: self.friction,
-            barred: None,
+            barred: HypothesisSet::new(),
         }
     }
 }

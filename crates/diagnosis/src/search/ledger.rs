@@ -20,6 +20,11 @@ impl Ledger {
         self.refused.get(&g)
     }
 
+    /// All refused hypotheses.
+    pub fn hypotheses(&self) -> impl Iterator<Item = usize> {
+        self.refused.keys().copied()
+    }
+
     /// Whether a hypothesis of a model was refused before, and may not enter again.
     pub fn refuses_any(&self, model: &HypothesisSet) -> bool {
         model.iter().any(|g| self.varies(*g))

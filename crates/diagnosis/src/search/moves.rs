@@ -43,7 +43,7 @@ impl<'a> Selection<'a> {
     /// The admissible exchange of `g` for a neighbour of most evidence.
     pub fn best_exchange(&self, state: &ModelState<'a>, g: usize) -> Option<ModelState<'a>> {
         let rest = Change::leave(g).rest(&state.model);
-        let is_outside = |h: &usize| !rest.contains(h) && self.barred != Some(*h);
+        let is_outside = |h: &usize| !rest.contains(h) && !self.barred.contains(h);
         let outside = self.neighbours(g).into_iter().filter(is_outside);
         let exchanges = outside.filter_map(|h| self.admit(state, &Change::exchange(g, h)).ok());
         most_evident(exchanges).map(|admitted| admitted.state)

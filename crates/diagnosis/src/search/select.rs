@@ -16,7 +16,7 @@ const ROUNDS: usize = 4;
 /// Selects the hypotheses that the blocks of a problem support.
 ///
 /// `admit` asks the rules, the moves propose changes, and the loop takes them.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Selection<'a> {
     pub problem: &'a Problem<'a>,
     pub robot: &'a Robot,
@@ -24,8 +24,8 @@ pub(crate) struct Selection<'a> {
     pub practical: &'a [f64],
     /// See [`Dataset::friction`](crate::search::dataset::Dataset::friction).
     pub friction: &'a [FrictionError],
-    /// A hypothesis that may not enter.
-    pub barred: Option<usize>,
+    /// Hypotheses that may not enter.
+    pub barred: HypothesisSet,
 }
 
 impl<'a> Selection<'a> {
@@ -75,7 +75,7 @@ impl<'a> Selection<'a> {
     /// Gain in log evidence (nats) from adding `g` to a model, whose fit is `fit`.
     pub fn evidence_gain(&self, model: &HypothesisSet, fit: &Fit, g: usize) -> f64 {
         let columns = self.problem.new_columns(model, g);
-        if columns.is_empty() || self.barred == Some(g) || self.is_excluded(model, g) {
+        if columns.is_empty() || self.barred.contains(&g) || self.is_excluded(model, g) {
             f64::NEG_INFINITY
         } else if self.adds_to_simpler(g) {
             self.evidence_beyond_simpler(model, g)

@@ -78,7 +78,7 @@ impl<'a> Dataset<'a> {
         let mut start = Start::Everyday.model(self.design);
         start.retain(shares);
         start.extend(model.iter().copied().filter(|&h| h != g));
-        Selection { barred: Some(g), ..self.selection(problem) }.run(start)
+        Selection { barred: HypothesisSet::from([g]), ..self.selection(problem) }.run(start)
     }
 
     /// What another answer has more of evidence after its names, in the mean of both weightings (nats).
@@ -113,14 +113,15 @@ impl<'a> Dataset<'a> {
         mut model: HypothesisSet,
         barred: Option<usize>,
     ) -> Selected<'a> {
-        for _ in 0..ROUNDS {
+        for round in 0..ROUNDS {
+            let barred = barred.into_iter().collect();
             let next = Selection { barred, ..self.selection(&problem) }.run(model.clone());
-            let is_same = next == model;
-            model = next;
-            problem = self.weigh(&problem, &model);
-            if is_same {
+            // The weights are those of the noise that this model left before.
+            if round > 0 && next == model {
                 break;
             }
+            model = next;
+            problem = self.weigh(&problem, &model);
         }
         Selected { problem, model }
     }

@@ -1,6 +1,6 @@
 use catalogue::EffectKind;
 use effects::{Frame, Hypothesis};
-use logs::{LogError, Prepared, PreparedRun};
+use logs::{LogError, Prepared, PreparedRun, rest_speeds};
 use rayon::prelude::*;
 use robot::Robot;
 
@@ -61,7 +61,30 @@ impl<'a> Log<'a> {
         let shown = hypothesis.before_the_link().is_some_and(|j| self.shows_link(j));
         let moved = hypothesis.joint().is_none_or(|j| self.moved[j]);
         let wanted = !self.without.contains(&hypothesis.kind);
-        wanted && moved && shown == (self.response == Response::Twist)
+        wanted
+            && moved
+            && shown == (self.response == Response::Twist)
+            && self.shows_motors(hypothesis)
+    }
+
+    /// Whether both joints of shared motors move at once in at least `moving_share` of the samples in which the first moves.
+    /// Elsewhere the friction of these motors is that of one joint.
+    fn shows_motors(&self, hypothesis: Hypothesis) -> bool {
+        let (EffectKind::DifferentialCoupling, Some(j)) = (hypothesis.kind, hypothesis.joint())
+        else {
+            return true;
+        };
+        let rest = rest_speeds(self.prepared);
+        let speeds = self.prepared.runs.iter().filter_map(|run| {
+            let [first, second] = run.joints.get(j..j + 2)? else { return None };
+            Some(first.qd.iter().zip(&second.qd))
+        });
+        let (mut one, mut both) = (0_usize, 0_usize);
+        for (_, second) in speeds.flatten().filter(|(first, _)| first.abs() > rest[j]) {
+            one += 1;
+            both += usize::from(second.abs() > rest[j + 1]);
+        }
+        both as f64 > self.thresholds.signals.moving_share * one as f64
     }
 
     /// `robot` evaluated along every run, with its efforts only while its joints move.
