@@ -130,15 +130,17 @@ impl Inputs<'_> {
     }
 }
 
-/// A model with what enters it beside what left because its size would have to vary. What was refused, or was `tried`, may not
-/// enter.
+/// A model with what enters it at a joint, beside what left because its size would have to vary. What was refused, or was `tried`,
+/// may not enter, nor may a body or a cause of the whole arm: it can imitate what left at several joints.
 fn entry_beside(
     selection: &Selection,
     model: &HypothesisSet,
     ledger: &Ledger,
     tried: &HypothesisSet,
 ) -> Option<HypothesisSet> {
-    let barred = ledger.hypotheses().chain(tried.iter().copied()).collect();
+    let groups = selection.problem.design.groups.iter().enumerate();
+    let of_more = groups.filter(|(_, group)| group.hypothesis.joint().is_none()).map(|(g, _)| g);
+    let barred = ledger.hypotheses().chain(tried.iter().copied()).chain(of_more).collect();
     let selection = Selection { barred, ..selection.clone() };
     let varying: HypothesisSet = ledger.varying().collect();
     let whole = model.union(&varying).copied().collect();
