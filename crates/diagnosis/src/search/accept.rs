@@ -1,3 +1,5 @@
+use catalogue::Family;
+use effects::Hypothesis;
 use logs::LogError;
 
 use crate::error::DiagnosisError;
@@ -130,8 +132,8 @@ impl Inputs<'_> {
     }
 }
 
-/// A model with what enters it at a joint, beside what left because its size would have to vary. What was refused, or was `tried`,
-/// may not enter, nor may a body or a cause of the whole arm: it can imitate what left at several joints.
+/// A model with friction that enters it, beside what left because its size would have to vary. What was refused, or was `tried`,
+/// may not enter, nor may other causes: a spring or a body can be what left by another name.
 fn entry_beside(
     selection: &Selection,
     model: &HypothesisSet,
@@ -139,8 +141,9 @@ fn entry_beside(
     tried: &HypothesisSet,
 ) -> Option<HypothesisSet> {
     let groups = selection.problem.design.groups.iter().enumerate();
-    let of_more = groups.filter(|(_, group)| group.hypothesis.joint().is_none()).map(|(g, _)| g);
-    let barred = ledger.hypotheses().chain(tried.iter().copied()).chain(of_more).collect();
+    let is_friction = |h: Hypothesis| h.kind.entry().family == Family::Friction && !h.is_imitable();
+    let others = groups.filter(|(_, group)| !is_friction(group.hypothesis)).map(|(g, _)| g);
+    let barred = ledger.hypotheses().chain(tried.iter().copied()).chain(others).collect();
     let selection = Selection { barred, ..selection.clone() };
     let varying: HypothesisSet = ledger.varying().collect();
     let whole = model.union(&varying).copied().collect();
