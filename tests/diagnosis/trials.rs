@@ -202,7 +202,7 @@ fn tilted(robot: Robot) -> Robot {
     robot.with_gravity(gravity)
 }
 
-fn changed(mut robot: Robot, link: &str, change: impl Fn(&Inertia) -> Inertia) -> Robot {
+pub fn changed(mut robot: Robot, link: &str, change: impl Fn(&Inertia) -> Inertia) -> Robot {
     let index = robot.links().iter().position(|l| l.name == link).unwrap();
     let link = robot.link_mut(index).unwrap();
     link.inertia = change(&link.inertia);

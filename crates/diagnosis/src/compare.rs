@@ -1,15 +1,20 @@
 use std::borrow::Cow;
 
+use catalogue::EffectKind;
 use effects::{Hypothesis, hypotheses};
 use logs::{Run, is_repeat};
 use robot::Robot;
 
 use crate::columns::design::Design;
-use crate::diagnose::{DiagnosisRun, diagnose};
+use crate::diagnose::{DiagnosisRun, diagnose, diagnose_since};
 use crate::error::DiagnosisError;
+use crate::find_tones::in_wide_band;
+use crate::oscillations::tones::tones_at;
 use crate::outcome::effect_at::effect_at;
+use crate::outcome::tone_finding::tone_finding;
 use crate::progress::DiagnosisProgress;
 use crate::readiness::extent::inadequate;
+use crate::readiness::inspected_logs::inspect_logs;
 use crate::regression::linear_fit::LinearFit;
 use crate::regression::problem::HypothesisSet;
 use crate::regression::uncertainty::Uncertainty;
@@ -17,6 +22,7 @@ use crate::result::{EffectAt, Estimate, Finding};
 use crate::search::inputs::Inputs;
 use crate::settings::Settings;
 use crate::signals::log::Log;
+use crate::signals::tone::{Beat, Tone};
 
 /// Changes from one set of logs to another: of one arm before and after an event, early and late in a session, or of
 /// two arms that should be equal.
@@ -29,8 +35,7 @@ pub struct Comparison {
     pub after: DiagnosisRun,
     /// Sizes of these findings in the first logs, about the same robot, for effects whose columns are linear.
     pub first: Vec<FirstSize>,
-    /// Findings about the same robot that the first logs show with the same size: errors common to both, which are no
-    /// changes.
+    /// Oscillations that the first logs show with the same amplitude, which are no changes.
     pub alike: Vec<Finding>,
 }
 
@@ -46,13 +51,14 @@ pub struct FirstSize {
 /// Finds what changed from the runs `before` to the runs `after`.
 ///
 /// ```text
-/// effort after  - extended nominal effort = columns w_after  + structure + noise
-/// effort before - extended nominal effort = columns w_before + structure + noise
+/// effort before - extended nominal effort = X v + noise
+/// effort after  - extended nominal effort = X v + X w + noise
 /// ```
 ///
-/// with the robot that the first runs extend. An error that no finding explains is in both logs, and a hypothesis may
-/// imitate it. So a finding is a change only where `w_after` differs from `w_before` by more than their 95 per cent
-/// intervals, added as squares.
+/// with the robot that the first runs extend, and the columns `X` of every effect. The weights `v` of all of them are in
+/// every model: they take what both logs have in common, named or not, as far as any effect can imitate it. Changes are the
+/// weights `w` that the second logs show beyond these; they are found as causes are. An oscillation is a change where its
+/// amplitude differs from that in the first logs by more than their 95 per cent intervals, added as squares.
 ///
 /// # Errors
 ///
@@ -66,21 +72,35 @@ pub fn compare(
     if let Some(run) = after.iter().find(|a| before.iter().any(|b| is_repeat(a, b))) {
         return Err(DiagnosisError::InBoth { run: run.name.clone() });
     }
-    let before = diagnose(robot, before, settings, progress)?;
-    let settings = Settings { cutoff_hz: Some(before.prepared.cutoff_hz), ..settings.clone() };
-    let mut after = diagnose(&before.extended, after, &settings, progress)?;
+    let first_runs = before;
+    let before = diagnose(robot, first_runs, settings, progress)?;
+    let settings = of_changes(settings, &before);
+    let first = Some(&before.prepared);
+    let mut after = diagnose_since(first, &before.extended, after, &settings, progress)?;
     let about = &before.extended;
     let named: Vec<&EffectAt> = after.diagnosis.findings.iter().map(|f| &f.at).collect();
     let is_named = |h: &Hypothesis| named.contains(&&effect_at(about, *h));
     let asked: Vec<Hypothesis> = hypotheses(about).into_iter().filter(is_named).collect();
-    let first = sizes(&before, &asked, &settings)?;
-    let is_changed = |finding: &Finding| {
-        let same = first.iter().find(|size| size.at == finding.at);
-        same.is_none_or(|size| differ(&finding.parameters, &size.parameters))
+    let mut first = sizes(&before, &asked, &settings)?;
+    let tones = tone_sizes(&before, (robot, first_runs), &after.diagnosis.findings, &settings)?;
+    let is_common = |finding: &Finding| {
+        let mut same = tones.iter().filter(|size| size.at == finding.at);
+        same.any(|size| !differ(&finding.parameters, &size.parameters))
     };
-    let (changes, alike) = after.diagnosis.findings.into_iter().partition(is_changed);
+    let (alike, changes) = after.diagnosis.findings.into_iter().partition(is_common);
+    first.extend(tones);
     after.diagnosis.findings = changes;
     Ok(Comparison { before, after, first, alike })
+}
+
+/// The settings of a search for changes since the logs of a diagnosis.
+fn of_changes(settings: &Settings, before: &DiagnosisRun) -> Settings {
+    let mut of_changes = settings.clone();
+    of_changes.cutoff_hz = Some(before.prepared.cutoff_hz);
+    let search = &mut of_changes.thresholds.search;
+    search.evidence += search.evidence_of_change;
+    search.evidence_of_imitable += search.evidence_of_change;
+    of_changes
 }
 
 /// Sizes of some hypotheses in the logs of a diagnosis, about the robot with its findings.
@@ -122,6 +142,40 @@ fn sizes(
         };
         hypotheses.iter().map(size).collect()
     })
+}
+
+/// What the logs of a diagnosis of `runs` of the robot `nominal` have of the oscillations among some findings.
+fn tone_sizes(
+    outcome: &DiagnosisRun,
+    (nominal, runs): (&Robot, &[Run]),
+    findings: &[Finding],
+    settings: &Settings,
+) -> Result<Vec<FirstSize>, DiagnosisError> {
+    let (robot, prepared, t) = (&outcome.extended, &outcome.prepared, &settings.thresholds);
+    let beat = |finding: &Finding| -> Option<(usize, Beat)> {
+        let beat = finding.parameters.get(1)?.value;
+        let beat = match finding.at.effect {
+            EffectKind::TorqueRipple => Beat::Position(beat),
+            EffectKind::ExternalDisturbance => Beat::Clock(beat),
+            _ => return None,
+        };
+        let joint = finding.at.joint.as_deref()?;
+        Some((robot.joint_names().position(|name| name == joint)?, beat))
+    };
+    let beats: Vec<(usize, Beat)> = findings.iter().filter_map(beat).collect();
+    if beats.is_empty() {
+        return Ok(Vec::new());
+    }
+    let inspected = outcome.read.as_ref().map(|_| inspect_logs(nominal, runs, t));
+    let runs = inspected.as_ref().map_or(runs, |inspected| inspected.runs(runs));
+    let Some(wide) = in_wide_band(prepared, robot, runs, settings)? else { return Ok(Vec::new()) };
+    let moved = vec![true; robot.joint_count()];
+    let tones = tones_at(&beats, robot, &wide, &Log::new(prepared, &moved, t))?;
+    let size = |tone: Tone| {
+        let finding = tone_finding(robot, &tone, t.tones.common_phase);
+        FirstSize { at: finding.at, parameters: finding.parameters }
+    };
+    Ok(tones.into_iter().flatten().map(size).collect())
 }
 
 /// Whether a parameter differs by more than the two 95 per cent intervals of the noise.

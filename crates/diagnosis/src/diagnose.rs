@@ -3,8 +3,9 @@ use std::borrow::Cow;
 use logs::{PrepareSettings, Prepared, Run, centre_commands, duplicate_of, prepare};
 use robot::Robot;
 
+use crate::columns::common::Common;
 use crate::error::DiagnosisError;
-use crate::find_tones::ToneSearch;
+use crate::find_tones::{ShapedDesign, ToneSearch};
 use crate::oscillations::limits::limits;
 use crate::oscillations::lines::RingingBand;
 use crate::outcome::held_out::HeldOutPart;
@@ -63,8 +64,21 @@ pub fn diagnose(
     settings: &Settings,
     progress: &dyn DiagnosisProgress,
 ) -> Result<DiagnosisRun, DiagnosisError> {
+    diagnose_since(None, robot, runs, settings, progress)
+}
+
+/// The diagnosis of `runs` whose findings are changes since the logs `first` of the same robot: what both logs show is in
+/// every model.
+pub(crate) fn diagnose_since(
+    first: Option<&Prepared>,
+    robot: &Robot,
+    runs: &[Run],
+    settings: &Settings,
+    progress: &dyn DiagnosisProgress,
+) -> Result<DiagnosisRun, DiagnosisError> {
+    let logs = Logs { runs, first };
     let (answer, logs) =
-        with_inputs(robot, runs, settings, progress, |inputs| answer(inputs, progress))?;
+        with_inputs(robot, logs, settings, progress, |inputs| answer(inputs, progress))?;
     let Answer { mut diagnosis, traces, extended, held_out } = answer;
     let PreparedLogs { prepared, read, runs, mut warnings } = logs;
     diagnosis.data.runs = runs;
@@ -82,6 +96,13 @@ pub fn diagnose(
     Ok(DiagnosisRun { diagnosis, traces, extended, read, prepared, held_out })
 }
 
+/// Logs to diagnose.
+pub(crate) struct Logs<'a> {
+    pub runs: &'a [Run],
+    /// Earlier logs of the same robot, where changes since these are looked for.
+    pub first: Option<&'a Prepared>,
+}
+
 /// The logs behind the inputs of a search.
 pub(crate) struct PreparedLogs {
     pub prepared: Prepared,
@@ -91,10 +112,10 @@ pub(crate) struct PreparedLogs {
     pub warnings: Vec<String>,
 }
 
-/// Prepares the logs of `runs` and calls `work` with the inputs of a search on them.
+/// Prepares logs and calls `work` with the inputs of a search on them.
 pub(crate) fn with_inputs<T>(
     robot: &Robot,
-    runs: &[Run],
+    Logs { runs, first }: Logs,
     settings: &Settings,
     progress: &dyn DiagnosisProgress,
     work: impl FnOnce(&Inputs) -> Result<T, DiagnosisError>,
@@ -124,7 +145,11 @@ pub(crate) fn with_inputs<T>(
     let limits = limits(about, &Log { described, ..log })?;
     let log = Log { described, limits: &limits, ..log };
     let search = ToneSearch { nominal: robot, about, settings, log, inadequate: &inadequate };
-    let (oscillations, shaped) = search.find_tones(runs)?;
+    let (oscillations, mut shaped) = search.find_tones(runs)?;
+    if let Some(first) = first {
+        let common = common_since(first, &search, &shaped)?;
+        common.into_iter().for_each(|common| shaped.design.add_common(common));
+    }
     warnings.extend(oscillations.ringing.iter().map(|band| words_for_ringing(robot, band)));
     progress.step();
     let inputs = Inputs {
@@ -139,6 +164,20 @@ pub(crate) fn with_inputs<T>(
     let runs = runs.iter().map(summary).collect();
     let read = inspected.read;
     Ok((worked, PreparedLogs { prepared, read, runs, warnings }))
+}
+
+/// What the logs `first` say of the effects of the design about the same robot.
+fn common_since(
+    first: &Prepared,
+    search: &ToneSearch,
+    ShapedDesign { robot, design }: &ShapedDesign,
+) -> Result<Option<Common>, DiagnosisError> {
+    let ToneSearch { nominal, settings, log, .. } = *search;
+    let inadequate = inadequate(robot, first, &settings.thresholds.readiness);
+    let moved: Vec<bool> = inadequate.iter().map(Option::is_none).collect();
+    let log = Log { prepared: first, moved: &moved, limits: &[], ..log };
+    let design = design.along_others(robot, &log)?;
+    Inputs { nominal, robot, settings, log, design: &design, inadequate: &inadequate }.common()
 }
 
 /// The answer of a search; the caller fills `data.runs` and `warnings` of the diagnosis.

@@ -1,4 +1,4 @@
-use logs::{PrepareSettings, Run, centre_commands, prepare};
+use logs::{PrepareSettings, Prepared, Run, centre_commands, prepare};
 use robot::Robot;
 
 use crate::columns::design::Design;
@@ -83,20 +83,13 @@ fn tones_left_by(
     candidates: Candidates,
 ) -> Result<Oscillations, DiagnosisError> {
     let (prepared, settings) = (inputs.log.prepared, inputs.settings);
-    let t = &settings.thresholds.tones;
-    let slowest = prepared.runs.iter().map(|r| r.rate_hz).fold(f64::INFINITY, f64::min);
-    let wide_hz = t.cutoff_hz(slowest);
-    if wide_hz < t.least_band * prepared.cutoff_hz {
+    if wide_band_hz(prepared, settings).is_none() {
         return Ok(Oscillations::default());
     }
     let extended = inputs.extended_robot()?;
-    let mut wide = prepare(runs, &PrepareSettings { cutoff_hz: Some(wide_hz) })?;
-    let is_known = |name: &String| prepared.runs.iter().any(|r| r.name == *name);
-    wide.runs.retain(|run| is_known(&run.name));
-    // Twice differentiated, the steps of an encoder at the link drown whatever is fast: the twist that was found
-    // replaces it there.
-    wide.runs.iter_mut().flat_map(|run| &mut run.joints).for_each(|joint| joint.link = None);
-    centre_commands(&extended, &mut wide.runs, settings.control_rate_hz);
+    let Some(wide) = in_wide_band(prepared, &extended, runs, settings)? else {
+        return Ok(Oscillations::default());
+    };
     // A line as slow as the motion may be the motion's, and a faster one too where the motion repeats.
     let motions = &inputs.design.motion;
     let all_differ = motions.len() >= 2
@@ -113,4 +106,30 @@ fn tones_left_by(
             described.tones.into_iter().filter(|tone| !found.is_in_a_band(tone)).collect();
     }
     Ok(found)
+}
+
+/// The cut-off of the band in which tones are looked for (Hz); `None` where it is hardly wider than that of the motion.
+fn wide_band_hz(prepared: &Prepared, settings: &Settings) -> Option<f64> {
+    let t = &settings.thresholds.tones;
+    let slowest = prepared.runs.iter().map(|r| r.rate_hz).fold(f64::INFINITY, f64::min);
+    let wide_hz = t.cutoff_hz(slowest);
+    (wide_hz >= t.least_band * prepared.cutoff_hz).then_some(wide_hz)
+}
+
+/// The `prepared` ones of some runs in the band in which tones are looked for.
+pub(crate) fn in_wide_band(
+    prepared: &Prepared,
+    robot: &Robot,
+    runs: &[Run],
+    settings: &Settings,
+) -> Result<Option<Prepared>, DiagnosisError> {
+    let Some(wide_hz) = wide_band_hz(prepared, settings) else { return Ok(None) };
+    let mut wide = prepare(runs, &PrepareSettings { cutoff_hz: Some(wide_hz) })?;
+    let is_known = |name: &String| prepared.runs.iter().any(|r| r.name == *name);
+    wide.runs.retain(|run| is_known(&run.name));
+    // Twice differentiated, the steps of an encoder at the link drown whatever is fast: the twist that was found
+    // replaces it there.
+    wide.runs.iter_mut().flat_map(|run| &mut run.joints).for_each(|joint| joint.link = None);
+    centre_commands(robot, &mut wide.runs, settings.control_rate_hz);
+    Ok(Some(wide))
 }

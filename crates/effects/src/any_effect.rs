@@ -51,6 +51,9 @@ pub trait AnyEffect: Sync {
     /// See [`Effect::prior`].
     fn prior(&self, place: Place, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64>;
 
+    /// See [`Effect::has_any_scale`].
+    fn has_any_scale(&self) -> bool;
+
     /// See [`HasCadError`](crate::HasCadError).
     fn cad_error_sd(&self, place: Place, robot: &Robot, priors: &Priors) -> Option<Vec<f64>>;
 
@@ -115,6 +118,10 @@ impl<E: Effect> AnyEffect for E {
 
     fn shape(&self) -> Option<&dyn HasShape> {
         Effect::shape(self)
+    }
+
+    fn has_any_scale(&self) -> bool {
+        Effect::has_any_scale(self)
     }
 
     fn places(&self, robot: &Robot) -> Vec<Place> {

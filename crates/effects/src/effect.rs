@@ -60,6 +60,12 @@ pub trait Effect: Sync {
     /// Prior standard deviation of each weight.
     fn prior(&self, at: Self::At, robot: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64>;
 
+    /// Whether the size of the effect is unknown by decades: its weights are then as likely to be of a tenth of their prior
+    /// as of the whole.
+    fn has_any_scale(&self) -> bool {
+        false
+    }
+
     /// Lowest and highest physically possible value of each weight.
     fn bounds(&self, at: Self::At, robot: &Robot, priors: &Priors) -> Vec<(f64, f64)>;
 

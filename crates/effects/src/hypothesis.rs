@@ -100,6 +100,11 @@ impl Hypothesis {
         self.model().map(|m| m.prior(self.place, robot, scale, priors)).unwrap_or_default()
     }
 
+    /// See [`AnyEffect::has_any_scale`].
+    pub fn has_any_scale(self) -> bool {
+        self.model().is_some_and(|m| m.has_any_scale())
+    }
+
     /// See [`AnyEffect::cad_error_sd`].
     pub fn cad_error_sd(self, robot: &Robot, priors: &Priors) -> Option<Vec<f64>> {
         self.model()?.cad_error_sd(self.place, robot, priors)

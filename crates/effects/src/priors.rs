@@ -69,6 +69,8 @@ pub struct Priors {
     pub payload_reach_m: f64,
     /// Standard deviation of the mass of a link beyond its own mass, in mean masses of a link (1).
     pub link_mass_sd_share: f64,
+    /// Scales of the prior of an effect whose size is unknown by decades, all as likely (1).
+    pub scales: [f64; 5],
     /// Share by which masses and inertias of CAD are wrong (1): cables, screws and castings are not in it.
     pub cad_share: f64,
     /// Distance by which centres of mass of CAD are wrong (m).
@@ -109,6 +111,7 @@ impl Default for Priors {
             spring_rest_sd: 0.25,
             payload_reach_m: 0.5,
             link_mass_sd_share: 0.3,
+            scales: [1.0, 0.3, 0.1, 0.03, 0.01],
             cad_share: 0.1,
             cad_centre_m: 0.01,
             cad_least_mass_kg: 0.01,

@@ -14,7 +14,7 @@ pub struct PyComparison {
     before: Py<PyDiagnosis>,
     /// What the others say of the robot as the first found it: its findings are the changes.
     after: Py<PyDiagnosis>,
-    /// As JSON the findings that both show to the same size, which are no change.
+    /// As JSON the oscillations that both show with the same amplitude, which are no change.
     alike: String,
     /// What the program prints.
     text: String,

@@ -147,7 +147,7 @@ pub fn words(comparison: &Comparison) -> String {
         text.push_str(&first(comparison, finding));
     }
     if !comparison.alike.is_empty() {
-        text.push_str("\nOf the same size before, and so no change\n");
+        text.push_str("\nOscillations of the same amplitude before, and so no change\n");
         comparison.alike.iter().for_each(|finding| text.push_str(&lines(finding)));
     }
     let held = &comparison.before.diagnosis.findings;

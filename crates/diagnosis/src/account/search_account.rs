@@ -3,7 +3,7 @@ use robot::Robot;
 use serde::Serialize;
 
 use crate::account::place_account::{LookedFor, PlaceAccount};
-use crate::diagnose::with_inputs;
+use crate::diagnose::{Logs, with_inputs};
 use crate::error::DiagnosisError;
 use crate::outcome::effect_at::effect_at;
 use crate::outcome::second_encoder::with_encoder_inputs;
@@ -65,8 +65,9 @@ pub fn account_for(
     truth: &[EffectAt],
     places: &[EffectAt],
 ) -> Result<SearchAccount, DiagnosisError> {
+    let logs = Logs { runs, first: None };
     let (account, _) =
-        with_inputs(robot, runs, settings, &Silent, |inputs| inputs.account_for(truth, places))?;
+        with_inputs(robot, logs, settings, &Silent, |inputs| inputs.account_for(truth, places))?;
     Ok(account)
 }
 

@@ -7,6 +7,7 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 use robot::Robot;
 
+use crate::columns::common::CommonPart;
 use crate::columns::evaluated::Evaluated;
 use crate::columns::prior::Prior;
 use crate::columns::readings::Readings;
@@ -39,6 +40,8 @@ pub(crate) struct Design {
     pub prior: Vec<f64>,
     /// Lowest and highest physically possible value of each weight.
     pub bounds: Vec<(f64, f64)>,
+    /// The columns of effects whose size is unknown by decades.
+    pub of_any_scale: Vec<Vec<usize>>,
     /// The columns that reach each joint, in order.
     pub local: Vec<Vec<usize>>,
     /// One entry a run.
@@ -56,6 +59,8 @@ pub(crate) struct Design {
     /// The signal that the design explains.
     pub response: Response,
     pub priors: Priors,
+    /// What the logs have in common with others, if they are compared.
+    pub common: Option<CommonPart>,
 }
 
 /// A robot evaluated along all runs, and the readings of the logs.
@@ -82,6 +87,13 @@ impl Design {
         let trial_lateness_s = shaped.trial_lateness_s;
         let frame = Frame { trial_gaps, trial_lateness_s, ..Frame::of_logs(log.prepared) };
         Self::within(frame, &shaped.robot, log, &hypotheses_of(&shaped.robot, log))
+    }
+
+    /// Evaluates the same hypotheses about the same `robot` along other logs.
+    pub fn along_others(&self, robot: &Robot, log: &Log) -> Result<Self, LogError> {
+        let own = self.groups.iter().map(|group| group.hypothesis);
+        let hypotheses: Vec<Hypothesis> = own.filter(|h| log.includes(*h)).collect();
+        Self::within(self.frame.clone(), robot, log, &hypotheses)
     }
 
     fn within(
@@ -118,7 +130,8 @@ impl Design {
         let along = log.along(robot, &self.frame)?;
         let readings = self.runs.iter().map(RunDesign::readings).collect();
         let evaluated = MotionAndReadings { frame: self.frame.clone(), along: &along, readings };
-        let design = Self::assemble(robot, log, hypotheses, evaluated)?;
+        let mut design = Self::assemble(robot, log, hypotheses, evaluated)?;
+        design.copy_common(self);
         Ok(Self { moves: self.moves.clone(), motion: self.motion.clone(), ..design })
     }
 
@@ -143,6 +156,7 @@ impl Design {
             width: 0,
             prior: Vec::new(),
             bounds: Vec::new(),
+            of_any_scale: Vec::new(),
             local: vec![Vec::new(); robot.joint_count()],
             runs: Vec::new(),
             rate_hz: evaluated.first().map_or(0.0, |e| e.rate_hz),
@@ -152,6 +166,7 @@ impl Design {
             priors: log.thresholds.priors,
             moves: Vec::new(),
             motion: Vec::new(),
+            common: None,
         };
         let origins = design.lay_out(robot, hypotheses, &scale, &evaluated);
         design.runs = evaluated.into_iter().map(|e| e.into_run(&design.local, &origins)).collect();
@@ -192,6 +207,9 @@ impl Design {
             group.joints.dedup();
             // A hypothesis that reaches no joint that moved, or has no prior spread, cannot be tested.
             if !group.joints.is_empty() && prior.iter().all(|&sd| sd > 0.0) {
+                if hypothesis.has_any_scale() {
+                    self.of_any_scale.push(group.columns.clone());
+                }
                 self.groups.push(group);
             }
         }
@@ -201,7 +219,8 @@ impl Design {
 
     /// The prior of every weight.
     pub fn weight_prior(&self) -> Prior<'_> {
-        Prior { sd: &self.prior, bounds: &self.bounds }
+        let Self { prior: sd, bounds, of_any_scale, priors, .. } = self;
+        Prior { sd, bounds, of_any_scale, scales: &priors.scales }
     }
 
     /// The runs, for the comparison of their motions.
@@ -209,10 +228,11 @@ impl Design {
         Runs { runs: &self.runs, rate_hz: self.rate_hz, moved: &self.moved, thresholds }
     }
 
-    /// The columns of some groups, in increasing order.
+    /// The columns of some groups and of the common part, in increasing order.
     pub fn columns(&self, groups: &BTreeSet<usize>) -> Vec<usize> {
-        let all: BTreeSet<usize> =
-            groups.iter().flat_map(|&g| self.groups[g].columns.iter().copied()).collect();
+        let of_groups = groups.iter().flat_map(|&g| self.groups[g].columns.iter().copied());
+        let common = self.common.iter().flat_map(|part| part.columns.clone());
+        let all: BTreeSet<usize> = of_groups.chain(common).collect();
         all.into_iter().collect()
     }
 

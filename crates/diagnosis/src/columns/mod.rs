@@ -4,6 +4,8 @@
 //! effort - nominal effort = sum over hypotheses of columns weights + noise
 //! ```
 
+pub(crate) mod common;
+pub(crate) mod common_columns;
 pub(crate) mod design;
 pub(crate) mod evaluated;
 pub(crate) mod late_goals;

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use robot::Robot;
 
 use crate::oscillations::lines::Oscillations;
+use crate::oscillations::moving_runs::MovingRuns;
 use crate::oscillations::spectral_lines::{AROUND, Follows, SpectralLine, SpectralLines};
 use crate::oscillations::tone_fit::{Coherence, Sampled, ToneFit};
 use crate::oscillations::turning_sum::TurningSum;
@@ -51,13 +52,7 @@ pub(crate) fn tones(
     question: &ToneQuestion,
 ) -> Result<Oscillations, LogError> {
     let (cutoff_hz, t) = (wide.cutoff_hz, &log.thresholds.tones);
-    let frame = &Frame::of_logs(wide);
-    let rests = |robot| -> Result<Vec<Rest>, LogError> {
-        let along =
-            |run| Along::new(robot, frame, run, cutoff_hz, log.limits, &log.thresholds.signals);
-        wide.runs.iter().map(|run| Rest::new(along(run)?)).collect()
-    };
-    let runs = rests(found)?;
+    let runs = rests(found, wide, log)?;
     let bands =
         Bands { cutoff_hz, band_hz: log.prepared.cutoff_hz, slowest_hz: question.slowest_hz };
     let at = |j: usize| {
@@ -71,7 +66,7 @@ pub(crate) fn tones(
     let looked_for = |tone: &Tone| !log.without.contains(&tone.hypothesis().kind);
     let mut lines: Vec<Vec<Tone>> = (0..log.moved.len()).into_par_iter().map(at).collect();
     if lines.iter().any(|lines| !lines.is_empty()) {
-        let gaps = rests(described)?;
+        let gaps = rests(described, wide, log)?;
         let is_in_gap = |tone: &Tone| {
             let gap = || gaps.iter().flat_map(|run| &run.left[tone.joint]);
             let power = gap().map(|x| x * x).sum::<f64>() / gap().count().max(1) as f64;
@@ -85,6 +80,38 @@ pub(crate) fn tones(
     }
     found.tones.retain(looked_for);
     Ok(found)
+}
+
+/// What the residual efforts of a robot have of tones that other logs show: those of the same joints and beats. `None`
+/// where no run determines it.
+pub(crate) fn tones_at(
+    beats: &[(usize, Beat)],
+    robot: &Robot,
+    wide: &Prepared,
+    log: &Log,
+) -> Result<Vec<Option<Tone>>, LogError> {
+    let t = &log.thresholds.tones;
+    let runs = rests(robot, wide, log)?;
+    let tone = |&(j, beat): &(usize, Beat)| {
+        let moving = MovingRuns::new(&runs, j, wide.cutoff_hz, t);
+        let follows = match beat {
+            Beat::Position(_) => Follows::Position,
+            Beat::Clock(_) => Follows::Clock,
+        };
+        let joint = Joint::new(&moving, follows, Least { rms: 0.0, share: 0.0 }, t);
+        (!moving.runs.is_empty()).then(|| joint.fit_tone(beat.rate(), 0.0))?
+    };
+    Ok(beats.iter().map(tone).collect())
+}
+
+/// The residual efforts of a robot in a wide band.
+fn rests<'a>(robot: &Robot, wide: &'a Prepared, log: &Log<'a>) -> Result<Vec<Rest<'a>>, LogError> {
+    let frame = &Frame::of_logs(wide);
+    let of = |run| {
+        let signals = &log.thresholds.signals;
+        Rest::new(Along::new(robot, frame, run, wide.cutoff_hz, log.limits, signals)?)
+    };
+    wide.runs.iter().map(of).collect()
 }
 
 /// Least fall of the RMS error that counts (N·m or N), and least share of the residual's power.
@@ -118,34 +145,14 @@ struct Joint<'a> {
 
 /// The tones of joint `j` in the runs in which it moves, the strongest first.
 fn at_joint(runs: &[Rest], j: usize, least: Least, bands: Bands, t: &ToneThresholds) -> Vec<Tone> {
-    let moving = |run: &&Rest| run.stands[j].iter().filter(|stands| !**stands).count() >= AROUND;
-    let runs: &[&Rest] = &runs.iter().filter(moving).collect::<Vec<_>>();
     let Bands { cutoff_hz, band_hz, slowest_hz } = bands;
-    let highest = TAU * t.highest * cutoff_hz;
-    // While a joint stands, dry friction holds it with any part of its level, which would pass for a sine.
-    let while_moving = |run: &Rest, signal: &dyn Fn(usize) -> f64| -> Vec<f64> {
-        let at = |(t, stands): (usize, &bool)| if *stands { 0.0 } else { signal(t) };
-        run.stands[j].iter().enumerate().map(at).collect()
-    };
-    let of_all = |signal: &dyn Fn(&Rest, usize) -> f64| -> Vec<Vec<f64>> {
-        runs.iter().map(|&run| while_moving(run, &|t| signal(run, t))).collect()
-    };
-    let mut left = of_all(&|run, t| run.left[j][t]);
-    let by_speed = of_all(&|run, t| highest / run.qd[j][t].abs().max(1e-9));
-    let anywhere = of_all(&|_, _| highest);
+    let moving = MovingRuns::new(runs, j, cutoff_hz, t);
+    let mut left = moving.left.clone();
     let slowest_hz = slowest_hz.max(t.lowest_hz);
     let mut tones: Vec<Tone> = Vec::new();
     while tones.len() < t.most_tones {
-        let of = |follows, highest| Joint {
-            index: j,
-            least,
-            thresholds: t,
-            follows,
-            runs,
-            left: &left,
-            highest,
-        };
-        let (clock, position) = (of(Follows::Clock, &anywhere), of(Follows::Position, &by_speed));
+        let of = |follows| Joint { left: &left, ..Joint::new(&moving, follows, least, t) };
+        let (clock, position) = (of(Follows::Clock), of(Follows::Position));
         let line = |band_hz: [f64; 2]| clock.strongest_tone(|clock| clock.lines(band_hz));
         let found = [
             position.strongest_tone(|position| position.waves()),
@@ -234,7 +241,21 @@ fn windows(time: &[f64], window_s: f64) -> Vec<Range<usize>> {
     (0..count).map(|i| i * time.len() / count..(i + 1) * time.len() / count).collect()
 }
 
-impl Joint<'_> {
+impl<'a> Joint<'a> {
+    fn new(
+        moving: &'a MovingRuns,
+        follows: Follows,
+        least: Least,
+        thresholds: &'a ToneThresholds,
+    ) -> Self {
+        let highest = match follows {
+            Follows::Position => &moving.highest_by_position,
+            Follows::Clock => &moving.highest_by_clock,
+        };
+        let MovingRuns { joint: index, runs, left, .. } = moving;
+        Self { index: *index, least, thresholds, follows, runs, left, highest }
+    }
+
     /// The variable that the phase follows in run `r` (s; or rad or m).
     fn beat(&self, r: usize) -> &[f64] {
         match self.follows {

@@ -54,7 +54,7 @@ pub(crate) struct Situation<'a> {
 }
 
 impl Situation<'_> {
-    /// Share of the residual's power that exceeds the noise.
+    /// Share of the residual's power that exceeds the noise, over all samples or while the joint slides: the larger of both.
     pub fn unexplained_share(&self) -> f64 {
         let beyond = |[rms, floor]: [f64; 2]| 1.0 - (floor / rms.max(f64::MIN_POSITIVE)).powi(2);
         self.errors_and_floors().map(beyond).fold(0.0, f64::max).min(1.0)

@@ -29,7 +29,7 @@ pub(crate) fn choose_body_errors(
     let columns = design.columns(&model);
     let evidence = |errors: f64| {
         let sd = prior_of_bodies(design, about, errors);
-        let prior = Prior { sd: &sd, bounds: &design.bounds };
+        let prior = Prior { sd: &sd, of_any_scale: &[], ..design.weight_prior() };
         Fit::new(info, columns.clone(), prior).map_or(f64::NEG_INFINITY, |fit| fit.evidence)
     };
     candidates.iter().copied().max_by(|a, b| evidence(*a).total_cmp(&evidence(*b)))

@@ -41,7 +41,10 @@ impl Fit {
             let leaving: Vec<_> = columns.iter().zip(weights.iter()).filter_map(outside).collect();
             if leaving.is_empty() {
                 let evidence = evidence(info, &columns, (&weights, &held), &factor, prior.sd);
-                return Some(Self { columns, weights, held, factor, answered, evidence });
+                let mut fit = Self { columns, weights, held, factor, answered, evidence };
+                let scales = prior.of_any_scale.iter();
+                fit.evidence += scales.map(|own| fit.evidence_of_scales(own, prior)).sum::<f64>();
+                return Some(fit);
             }
             for &(k, bound) in &leaving {
                 answered -= info.h.column(k) * bound;
@@ -86,11 +89,33 @@ impl Fit {
     }
 
     /// Gain in evidence from adding `others`, which start at zero weight.
-    pub fn evidence_of(&self, info: &Information, others: &[usize], prior: &[f64]) -> f64 {
-        let (complement, u) = self.beyond(info, others, prior);
-        let Some(factor) = Cholesky::new(complement.b) else { return f64::NEG_INFINITY };
-        let spread: f64 = others.iter().map(|&k| prior[k].ln()).sum();
-        0.5 * u.dot(&factor.solve(&u)) - 0.5 * ln_determinant(&factor) - spread
+    pub fn evidence_of(&self, info: &Information, others: &[usize], prior: Prior) -> f64 {
+        let (Complement { b, .. }, u) = self.beyond(info, others, prior.sd);
+        let Some(factor) = Cholesky::new(b.clone()) else { return f64::NEG_INFINITY };
+        let spread: f64 = others.iter().map(|&k| prior.sd[k].ln()).sum();
+        let weights = factor.solve(&u);
+        let gain = 0.5 * u.dot(&weights) - 0.5 * ln_determinant(&factor) - spread;
+        let is_of_any_scale = prior.of_any_scale.iter().any(|own| own == others);
+        let of_scales = || {
+            let sd = pick(&DVector::from_column_slice(prior.sd), others);
+            evidence_of_scales(&b, &weights, &sd, prior.scales)
+        };
+        gain + if is_of_any_scale { of_scales() } else { 0.0 }
+    }
+
+    /// See [`evidence_of_scales`]; 0 where a weight of `own` is not free.
+    fn evidence_of_scales(&self, own: &[usize], prior: Prior) -> f64 {
+        let place = |k: &usize| self.columns.iter().position(|c| c == k);
+        let Some(places) = own.iter().map(place).collect::<Option<Vec<usize>>>() else {
+            return 0.0;
+        };
+        let unit = DMatrix::from_fn(self.columns.len(), own.len(), |i, k| {
+            f64::from(u8::from(i == places[k]))
+        });
+        let covariance = self.factor.solve(&unit).select_rows(&places);
+        let Some(precision) = Cholesky::new(covariance).map(|c| c.inverse()) else { return 0.0 };
+        let sd = pick(&DVector::from_column_slice(prior.sd), own);
+        evidence_of_scales(&precision, &self.weights.select_rows(&places), &sd, prior.scales)
     }
 }
 
@@ -116,6 +141,35 @@ impl Complement {
     }
 }
 
+/// What the log evidence gains where the prior of some weights has an unknown scale `s`, one of `scales`. With the
+/// posterior `N(w, Q^-1)` under the prior standard deviations `sd`, in units of these,
+///
+/// ```text
+/// ln mean_s s^-k |Q|^1/2 |Q + d|^-1/2 exp((w' Q (Q + d)^-1 Q w - w' Q w) / 2),  d = (s^-2 - 1) 1
+/// ```
+fn evidence_of_scales(
+    precision: &DMatrix<f64>,
+    weights: &DVector<f64>,
+    sd: &DVector<f64>,
+    scales: &[f64],
+) -> f64 {
+    let count = sd.len();
+    let q = DMatrix::from_fn(count, count, |i, k| sd[i] * precision[(i, k)] * sd[k]);
+    let w = weights.component_div(sd);
+    let score = &q * &w;
+    let Some(whole) = Cholesky::new(q.clone()) else { return 0.0 };
+    let of_scale = |s: &f64| {
+        let narrow = Cholesky::new(&q + DMatrix::identity(count, count) * (s.powi(-2) - 1.0))?;
+        let determinants = 0.5 * (ln_determinant(&whole) - ln_determinant(&narrow));
+        let squares = 0.5 * (score.dot(&narrow.solve(&score)) - score.dot(&w));
+        Some(determinants + squares - count as f64 * s.ln())
+    };
+    let gains: Vec<f64> = scales.iter().filter_map(of_scale).collect();
+    let most = gains.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let sum: f64 = gains.iter().map(|gain| (gain - most).exp()).sum();
+    most + (sum / scales.len() as f64).ln()
+}
+
 /// `log integral of likelihood times prior` over the free weights, with the held ones fixed.
 fn evidence(
     info: &Information,
@@ -126,14 +180,15 @@ fn evidence(
 ) -> f64 {
     let all: Vec<(usize, f64)> =
         columns.iter().copied().zip(weights.iter().copied()).chain(held.iter().copied()).collect();
-    let quadratic: f64 = all
-        .iter()
-        .map(|&(i, a)| a * all.iter().map(|&(k, b)| info.h[(i, k)] * b).sum::<f64>())
-        .sum();
+    // Of the free weights A w = g - H w_held, so that only the rows of the held ones are left of w' (H + 1 / prior^2) w.
     let linear: f64 = all.iter().map(|&(k, w)| info.g[k] * w).sum();
-    let ridge: f64 = all.iter().map(|&(k, w)| (w / prior[k]).powi(2)).sum();
+    let of_held = |&(i, a): &(usize, f64)| {
+        let row = all.iter().map(|&(k, b)| info.h[(i, k)] * b).sum::<f64>();
+        a * (row + a * prior[i].powi(-2) - info.g[i])
+    };
+    let quadratic = linear + held.iter().map(of_held).sum::<f64>();
     let spread: f64 = columns.iter().map(|&k| prior[k].ln()).sum();
-    -0.5 * (info.yy - 2.0 * linear + quadratic + ridge) - 0.5 * ln_determinant(factor) - spread
+    -0.5 * (info.yy - 2.0 * linear + quadratic) - 0.5 * ln_determinant(factor) - spread
 }
 
 /// Posterior covariance of the weights of `columns`, `A^-1`; infinite where there is none.
@@ -158,4 +213,46 @@ fn regularise(info: &Information, columns: &[usize], prior: &[f64]) -> DMatrix<f
 
 fn ln_determinant(factor: &Cholesky<f64, Dyn>) -> f64 {
     2.0 * factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCALES: [f64; 3] = [1.0, 0.2, 0.01];
+
+    /// `ln mean_s integral N(y; w, 1 / h) N(w; 0, (s sd)²) dw`, where `y` has the variance `1 / h + (s sd)²`, less that of
+    /// the largest scale.
+    fn expected(y: f64, h: f64, sd: f64) -> f64 {
+        let density = |s: f64| {
+            let variance = h.recip() + (s * sd).powi(2);
+            (-0.5 * y * y / variance).exp() / variance.sqrt()
+        };
+        let mean = SCALES.iter().map(|s| density(*s)).sum::<f64>() / SCALES.len() as f64;
+        (mean / density(1.0)).ln()
+    }
+
+    #[test]
+    fn a_size_that_is_unknown_by_decades_has_the_evidence_of_all_its_scales() {
+        let (h, sd) = (400.0, 2.0);
+        for y in [0.02, 0.1, 0.5, 3.0] {
+            let info = Information {
+                h: DMatrix::from_element(1, 1, h),
+                g: DVector::from_element(1, h * y),
+                yy: h * y * y,
+            };
+            let (sds, bounds) = ([sd], [(f64::NEG_INFINITY, f64::INFINITY)]);
+            let (own, columns) = ([vec![0]], vec![0]);
+            let prior = Prior { sd: &sds, bounds: &bounds, of_any_scale: &own, scales: &SCALES };
+            let of_one = Prior { of_any_scale: &[], ..prior };
+            let gain = |of| Fit::new(&info, columns.clone(), of).unwrap().evidence;
+            let of_fit = gain(prior) - gain(of_one);
+            let none = Fit::new(&info, Vec::new(), prior).unwrap();
+            let entry = |of| none.evidence_of(&info, &columns, of);
+            let of_entry = entry(prior) - entry(of_one);
+            for found in [of_fit, of_entry] {
+                assert!((found - expected(y, h, sd)).abs() < 1e-9, "{y}: {found}");
+            }
+        }
+    }
 }

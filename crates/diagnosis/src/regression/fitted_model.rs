@@ -8,7 +8,8 @@ use crate::columns::design::Design;
 use crate::regression::blocks::Block;
 use crate::regression::body_errors::{choose_body_errors, prior_of_bodies};
 use crate::regression::extend_robot::extend_robot;
-use crate::regression::gram::Grams;
+use crate::regression::fit::Fit;
+use crate::regression::gram::{Grams, Information};
 use crate::regression::linear_fit::LinearFit;
 use crate::regression::physical_inertias::physical_inertias;
 use crate::regression::problem::{HypothesisSet, Problem};
@@ -60,7 +61,8 @@ impl Refit {
         let info = self.grams.information(of, &problem.weight);
         let sizes = &problem.thresholds.sizes;
         self.weights = physical_inertias(&self.design, &self.model, &info, &self.about, sizes);
-        (self.left, self.expected) = (info.yy, info.deviance(&self.weights));
+        self.left = without_changes(&self.design, &info);
+        self.expected = info.deviance(&self.weights);
     }
 
     /// A hypothesis whose fitted change of the robot is impossible.
@@ -95,12 +97,13 @@ pub(crate) struct FittedModel {
 }
 
 impl FittedModel {
-    /// Residual of joint `j` in a block (N·m or N); `first` is the design about the robot without findings.
+    /// Residual of the robot at joint `j` in a block (N·m or N); `first` is the design about the robot without findings.
     pub fn remaining(&self, first: &Design, block: &Block, j: usize) -> Vec<f64> {
-        match &self.refit {
-            Some(Refit { design, weights, .. }) => block.remaining(design, j, weights),
-            None => block.remaining(first, j, &self.weights),
-        }
+        let (design, weights) = match &self.refit {
+            Some(Refit { design, weights, .. }) => (design, weights),
+            None => (first, &self.weights),
+        };
+        block.remaining(design, j, &design.own_weights(weights))
     }
 
     /// The robot of a model with changes by `hypotheses` beside its own, which keep their sizes. They are not fitted yet.
@@ -178,7 +181,7 @@ pub(crate) fn fit_model(
         return Ok(FittedModel { model: model.clone(), weights: first, robot, refit: None });
     }
     let (mut best, mut worse): (Option<Refit>, Option<Refit>) = (None, None);
-    let (mut least, mut share) = (problem.info.yy, 1.0);
+    let (mut least, mut share) = (without_changes(problem.design, &problem.info), 1.0);
     for _ in 0..ROUNDS {
         let about = match &best {
             Some(best) => best.after_step(share),
@@ -211,6 +214,12 @@ pub(crate) fn fit_model(
         |refit| refit.after_step(1.0),
     );
     Ok(FittedModel { model: model.clone(), weights: first, robot, refit })
+}
+
+/// The deviance of the robot of a design, with what the logs have in common with others at its best.
+fn without_changes(design: &Design, info: &Information) -> f64 {
+    let common = Fit::new(info, design.columns(&HypothesisSet::new()), design.weight_prior());
+    common.map_or(info.yy, |fit| info.deviance(&fit.expand(design.width)))
 }
 
 fn scale(weights: &[f64], share: f64) -> Vec<f64> {

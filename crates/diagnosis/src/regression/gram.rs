@@ -1,6 +1,7 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use crate::columns::common::CommonPart;
 use crate::columns::design::Design;
 use crate::columns::stratum::Stratum;
 use crate::regression::blocks::Block;
@@ -55,6 +56,7 @@ pub(crate) struct Grams {
     blocks: Vec<Vec<JointGram>>,
     local: Vec<Vec<usize>>,
     width: usize,
+    common: Option<CommonPart>,
 }
 
 /// The statistics of all joints, weighted and summed: the normal equations.
@@ -97,6 +99,7 @@ impl Grams {
             blocks: blocks.par_iter().map(all).collect(),
             local: design.local.clone(),
             width: design.width,
+            common: design.common.clone(),
         }
     }
 
@@ -117,13 +120,32 @@ impl Grams {
         Stratum::all(self.joints()).map(|s| self.stratum(s, of)).collect()
     }
 
-    /// The normal equations over the blocks `of`, stratum `s` with weight `weight[s]`.
+    /// The normal equations over the blocks `of`, stratum `s` with weight `weight[s]`, and those of other logs for what
+    /// they have in common.
     pub fn information(&self, of: &[usize], weight: &[f64]) -> Information {
         self.weigh(&self.sums(of), weight)
     }
 
-    /// The normal equations from the statistics of every stratum, stratum `s` with weight `weight[s]`.
+    /// The same from the statistics of every stratum.
     pub fn weigh(&self, sums: &[JointGram], weight: &[f64]) -> Information {
+        let mut own = self.weigh_own(sums, weight);
+        if let Some(CommonPart { columns, of_others }) = &self.common {
+            let (first, count) = (columns.start, columns.len());
+            let mut h = own.h.view_mut((first, first), (count, count));
+            h += &of_others.h;
+            let mut g = own.g.rows_mut(first, count);
+            g += &of_others.g;
+            own.yy += of_others.yy;
+        }
+        own
+    }
+
+    /// The normal equations over the blocks `of` alone.
+    pub fn own_information(&self, of: &[usize], weight: &[f64]) -> Information {
+        self.weigh_own(&self.sums(of), weight)
+    }
+
+    fn weigh_own(&self, sums: &[JointGram], weight: &[f64]) -> Information {
         let (mut h, mut g) = (DMatrix::zeros(self.width, self.width), DVector::zeros(self.width));
         let mut yy = 0.0;
         for (s, &c) in Stratum::all(self.joints()).zip(weight).filter(|(_, c)| **c > 0.0) {

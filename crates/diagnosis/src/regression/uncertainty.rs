@@ -2,6 +2,7 @@ use effects::{EffectQuantity, Hypothesis, Weights};
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
 
+use crate::columns::common::CommonPart;
 use crate::regression::extend_robot::extend_robot;
 use crate::regression::fit::{Fit, covariance, pick};
 use crate::regression::linear_fit::LinearFit;
@@ -60,6 +61,13 @@ impl Uncertainty {
         for score in &scores {
             let own = pick(score, &columns);
             meat.ger(1.0, &own, &own, 1.0);
+        }
+        if let Some(CommonPart { columns: common, of_others }) = &problem.design.common {
+            let place = |k: &usize| common.contains(k).then(|| *k - common.start);
+            let places: Vec<Option<usize>> = columns.iter().map(place).collect();
+            meat += DMatrix::from_fn(columns.len(), columns.len(), |i, k| {
+                places[i].zip(places[k]).map_or(0.0, |at| of_others.scores[at])
+            });
         }
         let blocks = &likelihood * meat * &likelihood * (count / (count - 1.0).max(1.0));
         let thresholds = problem.thresholds.sizes.clone();

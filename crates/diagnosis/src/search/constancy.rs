@@ -172,7 +172,7 @@ fn held_out_square(
             train.h[(i, i)] += prior.powi(-2);
         }
         let w = train.h.cholesky()?.solve(&train.g);
-        let test = problem.grams.information(&fold.test, &problem.weight);
+        let test = problem.grams.own_information(&fold.test, &problem.weight);
         let Equations { h, g, yy } = equations(problem, (&test, &fold.test), columns, contrast);
         left += yy - 2.0 * w.dot(&g) + w.dot(&(h * &w));
     }

@@ -4,6 +4,7 @@ pub(crate) mod accept;
 pub(crate) mod admit;
 pub(crate) mod causes;
 pub(crate) mod change;
+pub(crate) mod common_of_logs;
 pub(crate) mod constancy;
 pub(crate) mod dataset;
 pub(crate) mod friction_error;

@@ -58,7 +58,8 @@ fn is_nearly_as_likely(
     let fit = problem.fit(without);
     let evidence = move |g: usize| {
         let columns = problem.new_columns(without, g);
-        fit.as_ref().map(|fit| fit.evidence_of(&problem.info, &columns, &problem.design.prior))
+        fit.as_ref()
+            .map(|fit| fit.evidence_of(&problem.info, &columns, problem.design.weight_prior()))
     };
     let least = evidence(group).map(|evidence| evidence - problem.thresholds.search.rival_evidence);
     move |h| evidence(h) > least

@@ -80,7 +80,7 @@ impl<'a> Selection<'a> {
         } else if self.adds_to_simpler(g) {
             self.evidence_beyond_simpler(model, g)
         } else {
-            fit.evidence_of(&self.problem.info, &columns, &self.problem.design.prior)
+            fit.evidence_of(&self.problem.info, &columns, self.problem.design.weight_prior())
         }
     }
 
@@ -91,7 +91,7 @@ impl<'a> Selection<'a> {
         plain.extend(self.simpler_than(g));
         let Some(fit) = self.problem.fit(&plain) else { return f64::NEG_INFINITY };
         let columns = self.problem.new_columns(&plain, g);
-        fit.evidence_of(&self.problem.info, &columns, &self.problem.design.prior)
+        fit.evidence_of(&self.problem.info, &columns, self.problem.design.weight_prior())
     }
 
     /// Whether `g` needs evidence beyond its simpler rivals.

@@ -6,6 +6,9 @@ pub struct SearchThresholds {
     /// The same for an effect that an error elsewhere, or one of many trial shapes, may imitate (nats). With 3
     /// instead of 10, six causes more, two less and ten false findings more in 18 trials.
     pub evidence_of_imitable: f64,
+    /// What a change between two sets of logs needs besides (nats): in an arm that was diagnosed before, most effects are as
+    /// they were.
+    pub evidence_of_change: f64,
     /// Largest lack of log evidence with which a hypothesis still is a rival of another, or is named in its place
     /// because it is simpler (nats): odds of 20 to 1.
     pub rival_evidence: f64,
@@ -55,6 +58,7 @@ impl Default for SearchThresholds {
         Self {
             evidence: 3.0,
             evidence_of_imitable: 10.0,
+            evidence_of_change: 3.0,
             rival_evidence: 3.0,
             rival_gain: 0.5,
             rival_errors: 2.0,

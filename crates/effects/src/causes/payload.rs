@@ -61,6 +61,11 @@ impl Effect for Payload {
         InertialParameters.prior(place, robot, scale, priors)
     }
 
+    /// A payload may be grams or kilograms.
+    fn has_any_scale(&self) -> bool {
+        true
+    }
+
     /// Those of the link's own parameters. Whether it is a body is asked of all weights together.
     fn bounds(&self, place: InLink, robot: &Robot, priors: &Priors) -> Vec<(f64, f64)> {
         InertialParameters.bounds(place, robot, priors)

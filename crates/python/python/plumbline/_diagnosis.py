@@ -125,7 +125,7 @@ class Comparison:
         self.after = Diagnosis._of(native.after)
         """What the others say of the robot as the first logs found it."""
         self.alike = findings_of(json.loads(native.alike))
-        """Findings about that robot which both show to the same size: no change."""
+        """Oscillations that both show with the same amplitude: no change."""
 
     @property
     def changes(self) -> Findings:

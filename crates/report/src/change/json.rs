@@ -21,7 +21,7 @@ struct Document<'a> {
     changes: Vec<FindingByName<'a>>,
     /// Sizes of the changed effects in the first logs alone, where these determine them.
     in_first_logs: Vec<SizeByName<'a>>,
-    /// What both sets show with the same size, which is no change.
+    /// Oscillations that both sets show with the same amplitude, which are no change.
     alike: Vec<FindingByName<'a>>,
     /// What the first logs show, held where nothing above is said of it.
     held: Vec<FindingByName<'a>>,

@@ -80,10 +80,11 @@ pub fn change_sentence(comparison: &Comparison) -> String {
     }
 }
 
-/// Findings that are no change, those of the same size in both logs apart from those of the first.
+/// Findings that are no change: oscillations of both logs, and what the first show.
 fn unchanged_findings(comparison: &Comparison) -> Vec<(&'static str, Vec<[String; 2]>)> {
     let rows = |findings: &[Finding]| findings.iter().map(row).collect::<Vec<_>>();
-    let alike = ("Of the same size before, and so no change", rows(&comparison.alike));
+    let alike =
+        ("Oscillations of the same amplitude before, and so no change", rows(&comparison.alike));
     let held = rows(&comparison.before.diagnosis.findings);
     let held = ("Found before, and held where nothing above is said of it", held);
     [alike, held].into_iter().filter(|(_, rows)| !rows.is_empty()).collect()
