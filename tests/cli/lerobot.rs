@@ -53,7 +53,7 @@ fn positions_that_are_no_radians_may_be_degrees_or_normalised() {
     write(&folder.path().join("set"), &runs, Layout::OneFile, &[]);
     let refused = run(folder.path(), &["log", "info", "set", "--robot", "arm.urdf"]);
     assert_eq!(refused.code, 3, "{refused:?}");
-    for expected in ["unit = \"deg\"", "may be normalised instead", "scale = (b - a) / 200"] {
+    for expected in ["unit = \"deg\"", "normalised to -100 .. 100", "scale = (b - a) / 200"] {
         assert!(refused.err.contains(expected), "{expected} is missing in\n{}", refused.err);
     }
 }

@@ -199,7 +199,7 @@ const WITHOUT_EFFORT: &str = "takes the joints that have one; the others count a
 
 const NO_JOINT_STATES: &str = "sensor_msgs/msg/JointState in CDR is read, which /joint_states is in ROS 2: record that topic, or write its positions and efforts as CSV and give a column map (--map)";
 
-const DEGREES_OR_NORMALISED: &str = "in the column map: position = { column = \"...\", unit = \"deg\" } for degrees. A dataset of LeRobot may be normalised instead, -100 to 100 over the range of the calibration from a to b (rad): then scale = (b - a) / 200 and offset = (a + b) / 2, a list with one number a joint each, of position and desired_position";
+const DEGREES_OR_NORMALISED: &str = "in the column map: position = { column = \"...\", unit = \"deg\" } for degrees. Normalised positions are -100 to 100 over the range of the calibration from a to b (rad): scale = (b - a) / 200 and offset = (a + b) / 2, a list with one number a joint each, of position and desired_position";
 
 const OTHERS_LOCKED: &str = "the other joints are locked at zero or as a robot.toml says";
 
@@ -218,9 +218,7 @@ fn of_log(log: &LogError) -> Option<&'static str> {
         LogError::File(FormatError::NoTopic { .. } | FormatError::SeveralTopics { .. }) => {
             Some("--topic NAME picks the topic whose joint states are read")
         }
-        LogError::LooksLikeDegrees { path, found, .. } if path.is_dir() && found.abs() <= 100.0 => {
-            Some(DEGREES_OR_NORMALISED)
-        }
+        LogError::LooksLikeDegrees { .. } if log.may_be_normalised() => Some(DEGREES_OR_NORMALISED),
         LogError::LooksLikeDegrees { .. } => {
             Some("in the column map: position = { column = \"...\", unit = \"deg\" }")
         }

@@ -1,4 +1,4 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use log_formats::{Excerpt, FormatError, columns, list, suggestion};
 
@@ -102,7 +102,7 @@ pub enum LogError {
     },
     /// A position must be in degrees, judged by the limits and the speed of the joint.
     #[error("{}: column {column}, row {row}: found {found}, but joint {joint} {expectation}; \
-        this looks like degrees where radians were expected: convert it, or give the column its unit in a column map", path.display())]
+        this looks like degrees{} where radians were expected: convert it, or give the column its unit in a column map", path.display(), or_normalised(path, *found))]
     LooksLikeDegrees {
         /// The file.
         path: PathBuf,
@@ -230,4 +230,20 @@ pub enum LogError {
         /// The cut-off (Hz).
         cutoff_hz: f64,
     },
+}
+
+impl LogError {
+    /// Whether the positions that look like degrees may be normalised instead, -100 to 100 over the range of a calibration.
+    pub fn may_be_normalised(&self) -> bool {
+        matches!(self, Self::LooksLikeDegrees { path, found, .. } if !or_normalised(path, *found).is_empty())
+    }
+}
+
+/// What a position `found` in a file may be besides degrees. A dataset of `LeRobot` is a folder.
+fn or_normalised(path: &Path, found: f64) -> &'static str {
+    if path.is_dir() && found.abs() <= 100.0 {
+        " or positions normalised to -100 .. 100"
+    } else {
+        ""
+    }
 }
