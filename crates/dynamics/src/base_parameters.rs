@@ -76,9 +76,9 @@ impl BaseParameters {
 /// The base parameters of a robot for the columns of `set`.
 ///
 /// Stacks the regressor over fixed pseudo-random states that ignore the joint limits,
-/// scales the kinds of columns alike, reduces them to a triangle by QR, and keeps greedily
-/// every column that is not a combination of those kept before. Drive columns are
-/// offered first, then links from the last to the first (inertias before the mass),
+/// scales the kinds of columns alike, reduces them to a triangle by QR, and keeps
+/// every column that is not a combination of those kept before it. Drive columns come
+/// first, then links from the last to the first (inertias before the mass),
 /// rotor inertias last: so distal links keep their own parameters, and a rotor that a
 /// link can take over is taken over.
 ///
@@ -86,28 +86,20 @@ impl BaseParameters {
 /// cube of the number of joints.
 pub fn base_parameters(robot: &Robot, set: ColumnSet) -> BaseParameters {
     let columns = set.columns(robot.joint_count());
-    let (triangle, scales) =
-        scaled_triangle(&stack_regressors(robot, set, columns.len()), &columns);
-    let mut independent = Kept::of(&triangle, &columns);
+    let reduced = Reduced::of(robot, set, &columns);
+    let mut independent = reduced.independent();
     independent.sort_unstable();
     let dependent: Vec<usize> =
         (0..columns.len()).filter(|c| independent.binary_search(c).is_err()).collect();
-    let mapping = mapping(&triangle, &scales, &independent, &dependent);
-    let singular_values = singular_values(&triangle);
+    let mapping = reduced.mapping(&independent, &dependent);
+    let singular_values = reduced.singular_values();
     BaseParameters { columns, independent, dependent, mapping, singular_values }
 }
 
 /// How many base parameters a robot has for the columns of `set`: the rank of [`base_parameters`].
 pub fn base_parameter_count(robot: &Robot, set: ColumnSet) -> usize {
     let columns = set.columns(robot.joint_count());
-    let (triangle, _) = scaled_triangle(&stack_regressors(robot, set, columns.len()), &columns);
-    Kept::of(&triangle, &columns).len()
-}
-
-/// Singular values, largest first; none where they do not converge.
-fn singular_values(triangle: &DMatrix<f64>) -> Vec<f64> {
-    let square = Mat::from_fn(triangle.nrows(), triangle.ncols(), |i, c| triangle[(i, c)]);
-    square.singular_values().unwrap_or_default()
+    Reduced::of(robot, set, &columns).independent().len()
 }
 
 /// Order in which columns are offered (see [`base_parameters`]).
@@ -157,22 +149,8 @@ fn uniform() -> impl FnMut() -> f64 {
     }
 }
 
-/// `R` of `W diag(1 / scales) = Q R`, and the scales: of every column, the norm of the
-/// longest one of its kind. The columns of `R` have the inner products of the scaled `W`.
-fn scaled_triangle(w: &DMatrix<f64>, columns: &[RegressorColumn]) -> (DMatrix<f64>, Vec<f64>) {
-    let longest = |kind: usize| {
-        let alike = (0..columns.len()).filter(|&c| self::kind(&columns[c]) == kind);
-        let norm = alike.map(|c| w.column(c).norm()).fold(0.0, f64::max);
-        if norm > 0.0 { norm } else { 1.0 }
-    };
-    let scales: Vec<f64> = columns.iter().map(|column| longest(kind(column))).collect();
-    let scaled = Mat::from_fn(w.nrows(), w.ncols(), |i, c| w[(i, c)] / scales[c]);
-    let qr = scaled.qr();
-    let r = qr.thin_R();
-    let triangle =
-        DMatrix::from_fn(r.nrows(), r.ncols(), |i, c| if i > c { 0.0 } else { r[(i, c)] });
-    (triangle, scales)
-}
+/// Number of kinds of columns.
+const KINDS: usize = 7;
 
 /// Columns of one kind share their unit.
 fn kind(column: &RegressorColumn) -> usize {
@@ -187,59 +165,97 @@ fn kind(column: &RegressorColumn) -> usize {
     }
 }
 
-/// The columns kept so far and an orthonormal basis of what they span.
-struct Kept {
-    /// Its first columns, as many as are kept.
-    basis: DMatrix<f64>,
-    columns: Vec<usize>,
+/// The regressor over many states, reduced to a triangle:
+///
+/// ```text
+/// W diag(1 / scales) P = Q R
+/// ```
+///
+/// `P` puts the columns in the order in which they are preferred.
+struct Reduced {
+    /// `R`.
+    triangle: DMatrix<f64>,
+    /// Index of the column of `W` that is the k-th column of `R`.
+    order: Vec<usize>,
+    /// Of every column of `W`, the norm of the longest one of its kind.
+    scales: Vec<f64>,
 }
 
-impl Kept {
-    /// The independent columns of `triangle`, as they are preferred.
-    fn of(triangle: &DMatrix<f64>, columns: &[RegressorColumn]) -> Vec<usize> {
-        let (rows, most) = (triangle.nrows(), triangle.nrows().min(triangle.ncols()));
-        let mut kept = Self { basis: DMatrix::zeros(rows, most), columns: Vec::new() };
-        preference(columns).into_iter().for_each(|column| kept.offer(column, triangle));
-        kept.columns
+impl Reduced {
+    fn of(robot: &Robot, set: ColumnSet, columns: &[RegressorColumn]) -> Self {
+        let w = stack_regressors(robot, set, columns.len());
+        let mut longest = [0.0_f64; KINDS];
+        for (c, column) in columns.iter().enumerate() {
+            let of_kind = &mut longest[kind(column)];
+            *of_kind = of_kind.max(w.column(c).norm());
+        }
+        let longest = longest.map(|norm| if norm > 0.0 { norm } else { 1.0 });
+        let scales: Vec<f64> = columns.iter().map(|column| longest[kind(column)]).collect();
+        let order = preference(columns);
+        let scaled = Mat::from_fn(w.nrows(), w.ncols(), |i, k| w[(i, order[k])] / scales[order[k]]);
+        let qr = scaled.qr();
+        let r = qr.thin_R();
+        let upper = |i, c| if i > c { 0.0 } else { r[(i, c)] };
+        let triangle = DMatrix::from_fn(r.nrows(), r.ncols(), upper);
+        Self { triangle, order, scales }
     }
 
-    /// Keeps the column of `triangle` if it adds a direction.
-    fn offer(&mut self, column: usize, triangle: &DMatrix<f64>) {
-        let mut rest: DVector<f64> = triangle.column(column).into_owned();
-        // Twice is enough (Parlett 1998, section 6.9): the second pass removes rounding.
-        let kept = self.columns.len();
-        for _ in 0..2 {
-            let basis = self.basis.columns(0, kept);
-            let along = basis.tr_mul(&rest);
-            rest.gemv(-1.0, &basis, &along, 1.0);
+    /// Indices of the columns of `W` of which more than [`DEPENDENT_SHARE`] is left after projection on those before.
+    ///
+    /// Householder reflections turn the triangle into steps: the k-th column kept ends in row k. What is left of a later
+    /// column is its norm below the rows of those kept.
+    fn independent(&self) -> Vec<usize> {
+        let mut steps = self.triangle.clone();
+        let mut kept = Vec::new();
+        for c in 0..steps.ncols() {
+            let (row, end) = (kept.len(), steps.nrows().min(c + 1));
+            let rest = steps.view((row, c), (end - row, 1)).into_owned();
+            if rest.norm() > DEPENDENT_SHARE {
+                kept.push(self.order[c]);
+                reflect(&mut steps, row, c + 1, rest);
+            }
         }
-        let norm = rest.norm();
-        // Of a triangle, no more columns than rows are independent.
-        if norm > DEPENDENT_SHARE && kept < self.basis.ncols() {
-            self.basis.set_column(kept, &(rest / norm));
-            self.columns.push(column);
-        }
+        kept
+    }
+
+    /// The columns of `R` that belong to these of `W`.
+    fn pick(&self, indices: &[usize]) -> DMatrix<f64> {
+        let mut place = vec![0; self.order.len()];
+        self.order.iter().enumerate().for_each(|(k, &column)| place[column] = k);
+        let rows = self.triangle.nrows();
+        DMatrix::from_fn(rows, indices.len(), |i, c| self.triangle[(i, place[indices[c]])])
+    }
+
+    /// Least squares `Y_b mapping = Y_dependent`, undone for the scales.
+    fn mapping(&self, independent: &[usize], dependent: &[usize]) -> DMatrix<f64> {
+        let (q, r) = self.pick(independent).qr().unpack();
+        let mut solution = q.transpose() * self.pick(dependent);
+        let solved = r.solve_upper_triangular_mut(&mut solution);
+        // The columns kept are independent by construction, so that no diagonal entry vanishes.
+        assert!(solved, "independent columns");
+        DMatrix::from_fn(independent.len(), dependent.len(), |i, d| {
+            let share = solution[(i, d)];
+            let unscaled = share * self.scales[dependent[d]] / self.scales[independent[i]];
+            if share.abs() < MAPPING_ROUNDING { 0.0 } else { unscaled }
+        })
+    }
+
+    /// Singular values, largest first; none where they do not converge.
+    fn singular_values(&self) -> Vec<f64> {
+        let (rows, columns) = self.triangle.shape();
+        let square = Mat::from_fn(rows, columns, |i, c| self.triangle[(i, c)]);
+        square.singular_values().unwrap_or_default()
     }
 }
 
-/// Least squares `Y_b mapping = Y_dependent`, undone for the scales.
-fn mapping(
-    triangle: &DMatrix<f64>,
-    scales: &[f64],
-    independent: &[usize],
-    dependent: &[usize],
-) -> DMatrix<f64> {
-    let pick = |indices: &[usize]| {
-        DMatrix::from_fn(triangle.nrows(), indices.len(), |i, c| triangle[(i, indices[c])])
-    };
-    let (q, r) = pick(independent).qr().unpack();
-    let mut solution = q.transpose() * pick(dependent);
-    let solved = r.solve_upper_triangular_mut(&mut solution);
-    // The columns kept are independent by construction, so that no diagonal entry vanishes.
-    assert!(solved, "independent columns");
-    DMatrix::from_fn(independent.len(), dependent.len(), |i, d| {
-        let share = solution[(i, d)];
-        let unscaled = share * scales[dependent[d]] / scales[independent[i]];
-        if share.abs() < MAPPING_ROUNDING { 0.0 } else { unscaled }
-    })
+/// Reflects the columns of `steps` from `first` on, so that `rest`, from row `row` on, would become a multiple of the
+/// first unit vector: `x - 2 v v'x / v'v`, `v = rest ± |rest| e_1`.
+fn reflect(steps: &mut DMatrix<f64>, row: usize, first: usize, mut rest: DMatrix<f64>) {
+    rest[0] += rest.norm().copysign(rest[0]);
+    let square = rest.norm_squared();
+    for c in first..steps.ncols() {
+        let mut column = steps.view_mut((row, c), (rest.nrows(), 1));
+        let along = 2.0 * column.dot(&rest) / square;
+        column.zip_apply(&rest, |x, v| *x -= along * v);
+    }
 }

@@ -8,17 +8,57 @@ use crate::pieces::usual_step;
 use crate::thresholds::InspectionThresholds;
 
 /// Runs that hold the same rows at another time; exact repeats are left to [`logs::duplicate_of`].
+///
+/// What two runs share has a row that another row follows. Only runs with the same two rows in sequence somewhere are
+/// compared, so that the cost grows with the samples and not with the pairs of runs.
 pub(crate) fn overlaps(runs: &[Run], t: &InspectionThresholds) -> Vec<Observation> {
     let marks: Vec<Vec<u64>> = runs.iter().map(marks).collect();
+    let changes = Changes::of(&marks);
     let mut observations = Vec::new();
     for b in 1..runs.len() {
-        for a in 0..b {
+        for a in changes.earlier_runs(&marks[b], b) {
             if !is_repeat(&runs[a], &runs[b]) {
                 observations.extend(overlap(runs, &marks, [a, b], t));
             }
         }
     }
     observations
+}
+
+/// Where a row is followed by another: a mark of the two and the run, sorted.
+struct Changes(Vec<(u64, usize)>);
+
+impl Changes {
+    fn of(marks: &[Vec<u64>]) -> Self {
+        let of_run = |(run, marks): (usize, &Vec<u64>)| {
+            changes(marks).map(|change| (change, run)).collect::<Vec<_>>()
+        };
+        let mut all: Vec<(u64, usize)> = marks.iter().enumerate().flat_map(of_run).collect();
+        all.sort_unstable();
+        all.dedup();
+        Self(all)
+    }
+
+    /// The runs before `run` that share a change with its rows, ascending.
+    fn earlier_runs(&self, marks: &[u64], run: usize) -> Vec<usize> {
+        let mut shares = vec![false; run];
+        for change in changes(marks) {
+            let from = self.0.partition_point(|entry| *entry < (change, 0));
+            let others = self.0[from..].iter().take_while(|entry| **entry < (change, run));
+            others.for_each(|(_, earlier)| shares[*earlier] = true);
+        }
+        (0..run).filter(|earlier| shares[*earlier]).collect()
+    }
+}
+
+/// A mark of every two rows in sequence that differ.
+fn changes(marks: &[u64]) -> impl Iterator<Item = u64> {
+    let of_two = |two: &[u64]| {
+        let mut hasher = DefaultHasher::new();
+        two.hash(&mut hasher);
+        hasher.finish()
+    };
+    marks.windows(2).filter(|two| two[0] != two[1]).map(of_two)
 }
 
 fn overlap(
@@ -106,6 +146,24 @@ mod tests {
         assert!(
             (shift_s + 1000.0 / RATE_HZ).abs() < 1e-9 && (length_s - 4000.0 / RATE_HZ).abs() < 1e-6
         );
+    }
+
+    /// A run whose rows are the numbers `rows`.
+    fn run_of(rows: &[u64]) -> Run {
+        let mut run = swing(0.3);
+        run.time = (0..rows.len()).map(|k| k as f64 / RATE_HZ).collect();
+        run.joints[0].position = rows.iter().map(|row| *row as f64).collect();
+        run.joints[0].effort = vec![0.0; rows.len()];
+        run
+    }
+
+    #[test]
+    fn runs_that_share_a_change_are_those_that_are_compared() {
+        let rows: [&[u64]; 5] =
+            [&[1, 2, 3], &[2, 1, 1], &[9, 9, 9], &[7, 2, 3, 9], &[9, 9, 1, 2, 8, 7, 2]];
+        let marks: Vec<Vec<u64>> = rows.iter().map(|rows| marks(&run_of(rows))).collect();
+        let earlier = |run: usize| Changes::of(&marks).earlier_runs(&marks[run], run);
+        assert_eq!([1, 2, 3, 4].map(earlier), [vec![], vec![], vec![0], vec![0, 3]]);
     }
 
     #[test]

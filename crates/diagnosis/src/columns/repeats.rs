@@ -18,9 +18,10 @@ pub(crate) struct Runs<'a> {
 
 /// Numbers the motions: a run that repeats an earlier run gets the number of that run.
 pub(crate) fn motions(design: Runs) -> Vec<usize> {
+    let paths = design.paths();
     let mut motion: Vec<usize> = Vec::new();
-    for (r, run) in design.runs.iter().enumerate() {
-        let earlier = (0..r).find(|&e| repeat_shift(design, &design.runs[e], run).is_some());
+    for (r, path) in paths.iter().enumerate() {
+        let earlier = paths[..r].iter().position(|of| design.repeat_shift(of, path).is_some());
         motion.push(earlier.map_or(r, |e| motion[e]));
     }
     motion
@@ -77,18 +78,18 @@ pub(crate) fn noise_of_repeats(design: Runs) -> Option<Vec<f64>> {
     let joints = design.moved.len();
     let (mut sum, mut count) = (vec![0.0; joints], vec![0_usize; joints]);
     let mut repeat = false;
+    let (paths, residuals) = (design.paths(), design.residuals());
     for (a, first) in design.runs.iter().enumerate() {
-        for second in &design.runs[a + 1..] {
-            let Some(shift) = repeat_shift(design, first, second) else { continue };
-            let pairs = overlap(first.time.len(), second.time.len(), shift);
-            repeat |= !pairs.is_empty();
+        for (b, second) in design.runs.iter().enumerate().skip(a + 1) {
+            let Some(shift) = design.repeat_shift(&paths[a], &paths[b]) else { continue };
+            let pairs = || overlap(first.time.len(), second.time.len(), shift);
+            repeat |= pairs().next().is_some();
             for j in 0..joints {
-                let of = |run: &RunDesign| run.joints[j].residual().collect::<Vec<_>>();
-                let (x, y) = (of(first), of(second));
-                let both = |(s, t): &&(usize, usize)| {
+                let (x, y) = (&residuals[a][j], &residuals[b][j]);
+                let both = |(s, t): &(usize, usize)| {
                     first.joints[j].is_informative[*s] && second.joints[j].is_informative[*t]
                 };
-                for &(s, t) in pairs.iter().filter(both) {
+                for (s, t) in pairs().filter(both) {
                     sum[j] += (x[s] - y[t]).powi(2);
                     count[j] += 1;
                 }
@@ -99,34 +100,96 @@ pub(crate) fn noise_of_repeats(design: Runs) -> Option<Vec<f64>> {
     repeat.then(|| sum.iter().zip(&count).map(rms).collect())
 }
 
-/// The shift (samples) at which the second run repeats the first, if it does.
-fn repeat_shift(design: Runs, first: &RunDesign, second: &RunDesign) -> Option<isize> {
-    let reach = (design.thresholds.repeat_shift_s * design.rate_hz).round() as isize;
-    let moving_joints = || (0..design.moved.len()).filter(|&j| design.moved[j]);
-    let mismatch = |shift: isize| {
-        let pairs = overlap(first.time.len(), second.time.len(), shift);
-        if 2 * pairs.len() < first.time.len().max(second.time.len()) {
-            return f64::INFINITY;
+/// Positions of the joints that moved in a run, and the range of each.
+struct Path<'a> {
+    samples: usize,
+    joints: Vec<(&'a [f64], f64)>,
+}
+
+impl Path<'_> {
+    /// RMS difference of the positions from those of another run that starts `shift` samples late, as a share of the
+    /// range, of the joint where it is largest; `None` where it is `limit` or more, or the runs have less than half in
+    /// common.
+    ///
+    /// A sum of squares only grows: it ends where it is beyond the limit, and a few samples of the whole run are asked
+    /// before all of them.
+    fn mismatch_below(&self, other: &Self, shift: isize, limit: f64) -> Option<f64> {
+        /// Samples that are asked first, spread evenly.
+        const FEW: usize = 16;
+        /// Samples between two looks at the sum.
+        const PIECE: usize = 64;
+        /// Above what rounding makes of a sum.
+        const ROUNDING: f64 = 1.0 + 1e-9;
+        let begin = shift.min(0).unsigned_abs();
+        let pairs = overlap(self.samples, other.samples, shift).count();
+        if pairs == 0 || 2 * pairs < self.samples.max(other.samples) {
+            return None;
         }
-        let of_joint = |j: usize| {
-            let (x, y) = (&first.joints[j].state[0], &second.joints[j].state[0]);
-            let power: f64 = pairs.iter().map(|&(s, t)| (x[s] - y[t]).powi(2)).sum();
-            let (low, high) = x
-                .iter()
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
-            (power / pairs.len() as f64).sqrt() / (high - low).max(f64::MIN_POSITIVE)
+        let mut largest = 0.0_f64;
+        for ((x, range), (y, _)) in self.joints.iter().zip(&other.joints) {
+            let x = &x[begin..][..pairs];
+            let y = &y[begin.checked_add_signed(shift)?..][..pairs];
+            let range = range.max(f64::MIN_POSITIVE);
+            let most = (limit * range).powi(2) * pairs as f64 * ROUNDING;
+            let square = |(x, y): (&f64, &f64)| (x - y).powi(2);
+            let step = pairs.div_ceil(FEW);
+            if x.iter().step_by(step).zip(y.iter().step_by(step)).map(square).sum::<f64>() > most {
+                return None;
+            }
+            let mut power = 0.0;
+            for (x, y) in x.chunks(PIECE).zip(y.chunks(PIECE)) {
+                power = x.iter().zip(y).map(square).fold(power, |sum, square| sum + square);
+                if power > most {
+                    return None;
+                }
+            }
+            largest = largest.max((power / pairs as f64).sqrt() / range);
+        }
+        (largest < limit).then_some(largest)
+    }
+}
+
+impl<'a> Runs<'a> {
+    fn paths(self) -> Vec<Path<'a>> {
+        let ends = |x: &[f64]| {
+            x.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)))
         };
-        moving_joints().map(of_joint).fold(0.0, f64::max)
-    };
-    let best = (-reach..=reach).map(|s| (mismatch(s), s)).min_by(|a, b| a.0.total_cmp(&b.0))?;
-    (best.0 < design.thresholds.repeat_difference).then_some(best.1)
+        let of_joint = |x: &'a [f64]| {
+            let (low, high) = ends(x);
+            (x, high - low)
+        };
+        let of_run = |run: &'a RunDesign| {
+            let joints = run.joints.iter().zip(self.moved).filter(|(_, moved)| **moved);
+            let joints = joints.map(|(joint, _)| of_joint(&joint.state[0])).collect();
+            Path { samples: run.time.len(), joints }
+        };
+        self.runs.iter().map(of_run).collect()
+    }
+
+    /// Residuals of the nominal model, `[run][joint][sample]`.
+    fn residuals(self) -> Vec<Vec<Vec<f64>>> {
+        let of_run = |run: &RunDesign| run.joints.iter().map(|j| j.residual().collect()).collect();
+        self.runs.iter().map(of_run).collect()
+    }
+
+    /// The shift (samples) at which the second run repeats the first, if it does.
+    fn repeat_shift(self, first: &Path, second: &Path) -> Option<isize> {
+        let reach = (self.thresholds.repeat_shift_s * self.rate_hz).round() as isize;
+        let (mut least, mut best) = (self.thresholds.repeat_difference, None);
+        for shift in -reach..=reach {
+            if let Some(mismatch) = first.mismatch_below(second, shift, least) {
+                (least, best) = (mismatch, Some(shift));
+            }
+        }
+        best
+    }
 }
 
 /// Pairs of samples of two runs that coincide when the second starts `shift` samples late.
-fn overlap(first: usize, second: usize, shift: isize) -> Vec<(usize, usize)> {
-    (0..first)
-        .filter_map(|s| s.checked_add_signed(shift).filter(|&t| t < second).map(|t| (s, t)))
-        .collect()
+fn overlap(first: usize, second: usize, shift: isize) -> impl Iterator<Item = (usize, usize)> {
+    let begin = shift.min(0).unsigned_abs();
+    let end = first.min(second.saturating_add_signed(-shift));
+    (begin..end).filter_map(move |s| Some((s, s.checked_add_signed(shift)?)))
 }
 
 #[cfg(test)]
