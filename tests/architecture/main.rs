@@ -17,6 +17,7 @@ mod places;
 mod references;
 mod rings;
 mod sealed;
+mod security;
 mod sources;
 mod supply;
 mod thresholds;
