@@ -20,6 +20,7 @@ mod faults;
 mod files;
 mod foreign_files;
 mod help;
+mod hostile_names;
 mod impossible;
 mod installed;
 mod learn;

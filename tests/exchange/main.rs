@@ -6,6 +6,7 @@ mod files;
 mod follows_goals;
 mod held;
 mod held_out;
+mod hostile_names;
 mod mujoco;
 mod newton;
 mod python;

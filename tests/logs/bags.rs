@@ -145,6 +145,20 @@ fn a_database_of_a_bag_that_is_cut_off_is_told_and_read_up_to_there() {
     }
 }
 
+/// The statement of the messages, each as long as the one that rosbag2 writes.
+#[test]
+fn columns_in_quotes_and_commas_in_parentheses_are_those_of_a_bag() {
+    let bag = golden("sqlite_bag.db3");
+    let at = bag.windows(25).position(|bytes| bytes == b"topic_id INTEGER NOT NULL").unwrap();
+    for column in
+        [b"\"topic_id\" CHECK (1, 2)  ", b"[topic_id] DEFAULT ('a,')", b"`topic_id` /* a, b */ INT"]
+    {
+        let mut bag = bag.clone();
+        bag[at..][..25].copy_from_slice(&column[..]);
+        assert_golden(&Scratch::new("run.db3", bag).read(&two_joints()).unwrap());
+    }
+}
+
 #[test]
 fn a_database_that_is_no_bag_or_lacks_its_last_messages_is_told() {
     assert_eq!(

@@ -8,6 +8,7 @@
 pub mod arms;
 pub mod book;
 pub mod golden;
+pub mod hostile_names;
 pub mod lerobot;
 pub mod mutated;
 pub mod named_keys;

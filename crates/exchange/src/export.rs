@@ -39,7 +39,7 @@ pub fn export(loaded: &Loaded, source: &str, format: Format) -> Result<Export, E
     let text = match format {
         Format::Urdf if source.contains("<robot") => urdf::edit::edit(loaded, &robot, source)?,
         Format::Urdf => urdf::write::write(loaded, &robot),
-        Format::Mjcf => mjcf::write::write(loaded, &robot),
+        Format::Mjcf => mjcf::write::write(loaded, &mjcf::names::with_names(&robot)),
         Format::Sdf => sdf::write(loaded, &robot),
         _ => usd::write::write(loaded, &robot),
     };
@@ -54,7 +54,7 @@ fn servos(loaded: &Loaded, robot: &Robot, format: Format) -> Result<Export, Exch
     let text = match format {
         Format::ActuatorIsaac => actuator::isaac_lab::write(loaded, robot),
         Format::ActuatorBam => actuator::bam::write(robot),
-        _ => Ok(actuator::mjcf::write(robot)),
+        _ => Ok(actuator::mjcf::write(&mjcf::names::with_names(robot))),
     };
     let text = text.map_err(|error| ExchangeError::Unwritable { reason: error.to_string() })?;
     let fates = actuator::fates::fates(loaded, robot, format);

@@ -29,7 +29,11 @@ impl XmlText {
 
     /// An element that holds a text.
     pub fn text(&mut self, name: &'static str, attributes: Attributes<'_>, text: &str) {
-        self.line(&format!("<{name}{}>{}</{name}>", attribute_text(attributes), escape(text)));
+        self.line(&format!(
+            "<{name}{}>{}</{name}>",
+            attribute_text(attributes),
+            escape_value(text)
+        ));
     }
 
     /// Opens an element.
@@ -61,5 +65,32 @@ impl XmlText {
 }
 
 fn attribute_text(attributes: Attributes<'_>) -> String {
-    attributes.iter().map(|(key, value)| format!(" {key}=\"{}\"", escape(value.as_str()))).collect()
+    let text = |(key, value): &(&str, String)| format!(" {key}=\"{}\"", escape_value(value));
+    attributes.iter().map(text).collect()
+}
+
+/// A value as XML has it: ends of lines and tabs by their number, as a reader takes them for blanks otherwise, and
+/// characters that no XML 1.0 can hold as `\u{1b}`.
+pub fn escape_value(value: &str) -> String {
+    let mut text = String::with_capacity(value.len());
+    for c in escape(value).chars() {
+        match c {
+            '\t' | '\n' | '\r' => text.push_str(&format!("&#{};", u32::from(c))),
+            '\0'..=' ' if c != ' ' => text.extend(c.escape_unicode()),
+            '\u{fffe}' | '\u{ffff}' => text.extend(c.escape_unicode()),
+            c => text.push(c),
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_holds_what_xml_can_hold() {
+        assert_eq!(escape_value("a\n\tb <&>'\""), "a&#10;&#9;b &lt;&amp;&gt;&apos;&quot;");
+        assert_eq!(escape_value("\u{1b}\u{ffff}\u{9b}"), "\\u{1b}\\u{ffff}\u{9b}");
+    }
 }

@@ -234,7 +234,11 @@ fn scenario(document: &Document, spec: &CampaignSpec) -> Result<String, Benchmar
     let (mut scenario, _) = document.read_named(&key, &spec.scenario)?;
     // A count is needed beside what a setting may say of hidden effects.
     for setting in Hidden::Nothing.settings() {
-        scenario.set(&setting)?;
+        scenario.set(&setting).map_err(|_| {
+            let found = spec.scenario.display();
+            let message = format!("{found} is no scenario: nothing can be hidden in it");
+            document.mistake(&key, message, None)
+        })?;
     }
     if !spec.except.is_empty() {
         let from: Vec<String> = drawn_kinds(spec).map(|kind| format!("'{kind}'")).collect();

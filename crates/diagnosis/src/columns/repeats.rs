@@ -133,9 +133,9 @@ impl Path<'_> {
             let most = (limit * range).powi(2) * pairs as f64 * ROUNDING;
             let square = |(x, y): (&f64, &f64)| (x - y).powi(2);
             let step = pairs.div_ceil(FEW);
-            if x.iter().step_by(step).zip(y.iter().step_by(step)).map(square).sum::<f64>() > most {
-                return None;
-            }
+            let few = x.iter().step_by(step).zip(y.iter().step_by(step));
+            few.map(square)
+                .try_fold(0.0, |sum, square| Some(sum + square).filter(|s| *s <= most))?;
             let mut power = 0.0;
             for (x, y) in x.chunks(PIECE).zip(y.chunks(PIECE)) {
                 power = x.iter().zip(y).map(square).fold(power, |sum, square| sum + square);
@@ -213,6 +213,56 @@ mod tests {
             slides: Vec::new(),
         };
         RunDesign { name: String::new(), joints: hz.map(joint).to_vec(), time: time.clone() }
+    }
+
+    /// The same by the definition: of all shifts with half of the samples, the first of those with the least mismatch.
+    fn shift_by_definition(design: Runs, first: &RunDesign, second: &RunDesign) -> Option<isize> {
+        let mismatch = |shift: isize| {
+            let of_joint = |(a, b): (&JointDesign, &JointDesign)| {
+                let (x, y) = (&a.state[0], &b.state[0]);
+                let at = |s: usize| Some((x[s] - y.get(s.checked_add_signed(shift)?)?).powi(2));
+                let squares: Vec<f64> = (0..x.len()).filter_map(at).collect();
+                let ends = x
+                    .iter()
+                    .fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(*v), h.max(*v)]);
+                let has_half = 2 * squares.len() >= x.len().max(y.len());
+                let rms = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+                if has_half { rms / (ends[1] - ends[0]) } else { f64::INFINITY }
+            };
+            first.joints.iter().zip(&second.joints).map(of_joint).fold(0.0, f64::max)
+        };
+        let best = (-20..=20).map(|s| (mismatch(s), s)).min_by(|a, b| a.0.total_cmp(&b.0))?;
+        (best.0 < design.thresholds.repeat_difference).then_some(best.1)
+    }
+
+    #[test]
+    fn the_shift_of_a_repeat_is_that_of_the_least_mismatch() {
+        let mut runs: Vec<RunDesign> =
+            [0.0, 0.05, -0.4, 1.9, 0.002].map(|phase| run([0.4, 0.7], phase)).to_vec();
+        // The same motion some samples later, and a short one of which half is another's.
+        let later = |by: usize, samples: usize| {
+            let mut late = run([0.4, 0.7], 0.0);
+            late.time.truncate(samples);
+            late.joints.iter_mut().for_each(|j| {
+                j.state[0].drain(..by);
+                j.state[0].truncate(samples);
+            });
+            late
+        };
+        runs.extend([later(7, 390), later(20, 300), later(0, 199), later(25, 300)]);
+        let thresholds = SignalThresholds::default();
+        let design =
+            Runs { runs: &runs, rate_hz: 20.0, moved: &[true; 2], thresholds: &thresholds };
+        let paths = design.paths();
+        let mut found = 0;
+        for (a, first) in runs.iter().enumerate() {
+            for (b, second) in runs.iter().enumerate() {
+                let shift = design.repeat_shift(&paths[a], &paths[b]);
+                assert_eq!(shift, shift_by_definition(design, first, second), "{a} {b}");
+                found += usize::from(shift.is_some());
+            }
+        }
+        assert!(found > runs.len() + 4 && found < 60, "{found}");
     }
 
     fn alike(runs: &[RunDesign]) -> bool {

@@ -46,9 +46,7 @@ impl UsdText {
 
     /// The original name of a prim.
     pub fn original_name(&mut self, name: &str) {
-        let plain: String = name.chars().filter(|c| !c.is_control()).collect();
-        let quoted = plain.replace('\\', "\\\\").replace('"', "\\\"");
-        self.set("custom string plumbline:name", &format!("\"{quoted}\""));
+        self.set("custom string plumbline:name", &quote(name));
     }
 
     /// The text.
@@ -61,6 +59,25 @@ impl UsdText {
         self.text.push_str(line);
         self.text.push('\n');
     }
+}
+
+/// A string on one line, in double quotes: control characters byte by byte as `\x1b`.
+///
+/// Source: `Sdf_EvalQuotedString` of OpenUSD (pxr/usd/sdf/parserHelpers.cpp).
+fn quote(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => quoted.extend(['\\', c]),
+            c if c.is_control() => {
+                for byte in c.to_string().bytes() {
+                    quoted.push_str(&format!("\\x{byte:02x}"));
+                }
+            }
+            c => quoted.push(c),
+        }
+    }
+    quoted + "\""
 }
 
 /// Three numbers.
@@ -101,6 +118,11 @@ impl PrimNames {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_string_stays_on_its_line() {
+        assert_eq!(quote("a\"b\\c\n\u{9b}é"), r#""a\"b\\c\x0a\xc2\x9bé""#);
+    }
 
     #[test]
     fn names_of_prims_are_plain_and_each_is_there_once() {

@@ -12,6 +12,7 @@ use serde::Serialize;
 
 use super::cause;
 use crate::error::CliError;
+use crate::escape::escape_line;
 use crate::output::{create_folder, display_path, table};
 
 /// Names of the files: twice the signals, and the scenario.
@@ -140,7 +141,8 @@ impl MotionFiles<'_> {
         let scenario =
             Scenario { robot: path, run: [OneRun { name: "motion", motion: &self.designed.spec }] };
         let toml = toml::to_string(&scenario).map_err(std::io::Error::other)?;
-        let comment: String = self.text.lines().map(|line| format!("# {line}\n")).collect();
+        let comment: String =
+            self.text.lines().map(|line| format!("# {}\n", escape_line(line))).collect();
         logs::replace_file(&out.join(FILES[2]), |file| Ok(write!(file, "{comment}\n{toml}")?))?;
         let [csv, parquet, toml] = FILES.map(|name| display_path(&out.join(name)));
         Ok(format!(

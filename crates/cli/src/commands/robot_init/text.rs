@@ -8,6 +8,7 @@ use robot::{Link, Loaded, Robot};
 use super::excitation::{Excitation, SEEDS};
 use super::guess::DriveGuess;
 use super::quote::{key, quote};
+use crate::escape::escape_line;
 
 /// Files that hold the schemas, beside the files that they are of.
 pub const ROBOT_SCHEMA: &str = "robot.schema.json";
@@ -27,7 +28,7 @@ pub fn robot_toml(loaded: &Loaded, model: &Path, drives: &[DriveGuess], rate_hz:
     let robot = &loaded.robot;
     let mut text = format!(
         "#:schema ./{ROBOT_SCHEMA}\n# {}: what its description cannot say. Replace what is called a guess.\nurdf = {}\n",
-        robot.name().replace(['\n', '\r'], " "),
+        escape_line(robot.name()),
         quote(&model.to_string_lossy())
     );
     if let Some(joints) = &loaded.part.joints {
@@ -92,13 +93,13 @@ fn joint(text: &mut String, link: &Link, drive: &DriveGuess) {
 pub fn scenario_toml(robot: &Robot, excitation: &Excitation) -> String {
     let mut text = format!(
         "#:schema ./{SCENARIO_SCHEMA}\n# {} as described, three runs of sinusoids at all joints, within the limits.\nrobot = \"robot.toml\"\n\n",
-        robot.name().replace(['\n', '\r'], " ")
+        escape_line(robot.name())
     );
     text.push_str(
         "# plumbline explain lists what can be put in; this is dry friction.\n# [[effect]]\n",
     );
     if let Some(name) = robot.joint_names().next() {
-        let name = quote(name).replace('\n', " ");
+        let name = quote(name);
         let _ = writeln!(text, "# coulomb_friction = {{ joint = {name}, level_nm = 1.0 }}\n");
     }
     text.push_str("[sensors]\nlog_rate_hz = 250.0\n# position_resolution_rad = { JOINT = 1e-4 }    step of the encoder\n# effort_noise_nm = { JOINT = 0.1 }\n");

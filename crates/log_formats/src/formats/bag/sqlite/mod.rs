@@ -1,6 +1,7 @@
 //! Bags in SQLite databases, read without the SQLite library.
 
-pub(crate) mod pages;
+mod columns;
+mod pages;
 pub(crate) mod record;
 pub(crate) mod sqlite_file;
 pub(crate) mod table;

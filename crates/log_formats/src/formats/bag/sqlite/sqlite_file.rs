@@ -12,6 +12,7 @@ use crate::{
     },
     formats::bag::{
         sqlite::{
+            columns::columns,
             pages::Pages,
             record::{SqliteValue, value},
             table::{Row, rows},
@@ -167,25 +168,5 @@ impl Table {
     fn place(&self, name: &str) -> Result<usize, String> {
         let found = self.columns.iter().position(|column| column == name);
         found.ok_or_else(|| format!("a table has no column {name}"))
-    }
-}
-
-/// The column names in a statement `CREATE TABLE name(column type, ...)`.
-fn columns(sql: &str) -> Vec<String> {
-    let within = sql.split_once('(').map_or("", |(_, within)| within);
-    let name = |column: &str| column.split_whitespace().next().unwrap_or_default().to_owned();
-    within.split(',').map(name).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn columns_are_told_by_the_statement_that_made_them() {
-        let sql =
-            "CREATE TABLE messages(id INTEGER PRIMARY KEY,topic_id INTEGER NOT NULL, \n data BLOB)";
-        assert_eq!(columns(sql), ["id", "topic_id", "data"]);
-        assert_eq!(columns("CREATE TABLE broken"), [""]);
     }
 }
