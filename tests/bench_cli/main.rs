@@ -11,14 +11,23 @@ mod campaign;
 mod campaigns;
 mod compare;
 #[cfg(target_os = "linux")]
+#[path = "../cli/disk.rs"]
+mod disk;
+#[cfg(target_os = "linux")]
 #[path = "../cli/faults.rs"]
 mod faults;
 mod figure;
+#[cfg(target_os = "linux")]
+#[path = "../cli/io_faults.rs"]
+mod io_faults;
 #[cfg(target_os = "linux")]
 #[path = "../cli/limits.rs"]
 mod limits;
 #[cfg(target_os = "linux")]
 mod loopback_slurm;
+#[cfg(target_os = "linux")]
+#[path = "../cli/power_loss.rs"]
+mod power_loss;
 mod program;
 mod scenarios;
 #[cfg(target_os = "linux")]
@@ -28,5 +37,8 @@ mod sockets;
 #[cfg(unix)]
 mod submit;
 mod times;
+#[cfg(target_os = "linux")]
+#[path = "../cli/undisturbed.rs"]
+mod undisturbed;
 #[cfg(target_os = "linux")]
 mod writers;

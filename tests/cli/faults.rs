@@ -215,26 +215,30 @@ fn assert_whole(folder: &Path, growing: Growing) {
         if growing == Growing::Allowed && grows(&path) {
             continue;
         }
-        let bytes = fs::read(&path).unwrap();
-        let ends = |end: &str| bytes.trim_ascii_end().ends_with(end.as_bytes());
-        let whole = match path.extension().and_then(|e| e.to_str()).unwrap_or_default() {
-            "json" => serde_json::from_slice::<serde_json::Value>(&bytes).is_ok(),
-            "toml" => std::str::from_utf8(&bytes).is_ok_and(|t| t.parse::<toml::Table>().is_ok()),
-            "parquet" => bytes.len() > 8 && bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"),
-            "html" => ends("</html>"),
-            "svg" => ends("</svg>"),
-            "urdf" => ends("</robot>"),
-            "csv" => bytes.ends_with(b"\n"),
-            "rrd" => Contents::read(&path).is_ok_and(|found| found.is_whole),
-            // A kind of file that nothing is known of.
-            _ => false,
-        };
-        assert!(whole, "{}: {} bytes", path.display(), bytes.len());
+        assert!(is_whole(&path), "{}", path.display());
+    }
+}
+
+/// Whether the beginning and the end of a file are those of its kind.
+pub fn is_whole(path: &Path) -> bool {
+    let bytes = fs::read(path).unwrap();
+    let ends = |end: &str| bytes.trim_ascii_end().ends_with(end.as_bytes());
+    match path.extension().and_then(|e| e.to_str()).unwrap_or_default() {
+        "json" => serde_json::from_slice::<serde_json::Value>(&bytes).is_ok(),
+        "toml" => std::str::from_utf8(&bytes).is_ok_and(|t| t.parse::<toml::Table>().is_ok()),
+        "parquet" => bytes.len() > 8 && bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"),
+        "html" => ends("</html>"),
+        "svg" => ends("</svg>"),
+        "urdf" => ends("</robot>"),
+        "csv" => bytes.ends_with(b"\n"),
+        "rrd" => Contents::read(path).is_ok_and(|found| found.is_whole),
+        // A kind of file that nothing is known of.
+        _ => false,
     }
 }
 
 /// Whether a file is the log or the recording of a run that is tracked, there while it is written.
-fn grows(path: &Path) -> bool {
+pub fn grows(path: &Path) -> bool {
     let of = |folder: &str, kind: &str| {
         path.parent().is_some_and(|parent| parent.ends_with(folder))
             && path.extension().is_some_and(|e| e == kind)

@@ -13,6 +13,8 @@ mod compare;
 mod completions;
 mod design;
 mod diagnose;
+#[cfg(target_os = "linux")]
+mod disk;
 mod excerpt;
 mod export;
 #[cfg(target_os = "linux")]
@@ -23,12 +25,16 @@ mod help;
 mod hostile_names;
 mod impossible;
 mod installed;
+#[cfg(target_os = "linux")]
+mod io_faults;
 mod learn;
 mod lerobot;
 #[cfg(target_os = "linux")]
 mod limits;
 #[cfg(target_os = "linux")]
 mod named_files;
+#[cfg(target_os = "linux")]
+mod power_loss;
 mod program;
 mod remembered;
 mod replay;
@@ -42,6 +48,8 @@ mod sockets;
 #[cfg(target_os = "linux")]
 mod terminal;
 mod track;
+#[cfg(target_os = "linux")]
+mod undisturbed;
 mod view;
 #[cfg(target_os = "linux")]
 mod writers;

@@ -8,4 +8,4 @@ mod error;
 mod named_file;
 
 pub use error::FileError;
-pub use named_file::{KEPT_BYTES, bytes, is_below, open, text};
+pub use named_file::{KEPT_BYTES, bytes, each_piece, is_below, open, text};

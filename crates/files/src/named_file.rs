@@ -1,11 +1,14 @@
 use std::fs::{self, File, Metadata};
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::Path;
 
 use crate::error::FileError;
 
 /// Largest file that is held in memory as a whole, where its kind has no smaller limit (bytes).
 pub const KEPT_BYTES: u64 = 64 << 20;
+
+/// What [`each_piece`] holds in memory (bytes).
+const PIECE_BYTES: usize = 1 << 16;
 
 /// Opens a file of any size.
 ///
@@ -31,6 +34,9 @@ pub fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, FileError> {
     let length = file.metadata()?.len();
     let mut bytes = Vec::new();
     if length <= most {
+        // With room for the end, which is read as well.
+        let room = usize::try_from(length).unwrap_or(usize::MAX).saturating_add(1);
+        bytes.try_reserve_exact(room).map_err(io::Error::from)?;
         file.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
     }
     // A file that grows while it is read is larger than it said.
@@ -39,6 +45,24 @@ pub fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, FileError> {
         return Err(FileError::TooLarge { bytes: length, most });
     }
     Ok(bytes)
+}
+
+/// Gives the bytes of a file of any size to `take`, piece by piece.
+///
+/// # Errors
+///
+/// Those of [`open`].
+pub fn each_piece(path: &Path, mut take: impl FnMut(&[u8])) -> Result<(), FileError> {
+    let mut file = open(path)?;
+    let mut piece = vec![0; PIECE_BYTES];
+    loop {
+        match file.read(&mut piece) {
+            Ok(0) => return Ok(()),
+            Ok(length) => take(&piece[..length]),
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error.into()),
+        }
+    }
 }
 
 /// The text in a file of at most `most` bytes.
@@ -84,6 +108,18 @@ mod tests {
         assert_eq!(text(&path, 4), Err(FileError::TooLarge { bytes: 5, most: 4 }));
         fs::write(&path, b"a\nb\xff").unwrap();
         assert_eq!(text(&path, 5), Err(FileError::NotText { line: 2, byte: 3 }));
+    }
+
+    #[test]
+    fn the_pieces_of_a_file_are_all_of_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("bytes");
+        let content: Vec<u8> = (0..3 * PIECE_BYTES + 1).map(|k| (k % 251) as u8).collect();
+        fs::write(&path, &content).unwrap();
+        let mut read = Vec::new();
+        each_piece(&path, |piece| read.extend_from_slice(piece)).unwrap();
+        assert!(read == content);
+        assert_eq!(each_piece(folder.path(), |_| {}), Err(FileError::Folder));
     }
 
     #[test]

@@ -8,10 +8,12 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
 
+use document::DocumentError;
 use experiment::ExperimentError;
-use logs::LogError;
+use logs::{FormatError, LogError};
 use population::{PopulationError, Store};
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use robot::RobotError;
 use simulator::SimulatorError;
 
 use crate::error::BenchmarkError;
@@ -218,27 +220,49 @@ fn outcome_of<T>(
     }
 }
 
-/// Whether the disk failed, so that no other trial can be kept either.
+/// Whether the disk failed: a file that cannot be written or read says nothing of the trial.
 pub(crate) fn is_of_the_disk(error: &BenchmarkError) -> bool {
     use BenchmarkError as B;
     use ExperimentError as E;
     use PopulationError as P;
-    let log = match error {
-        B::TrialFolder { .. } => return true,
+    match error {
+        B::TrialFolder { .. } => true,
         B::Experiment(error) => match &**error {
-            E::Log(log) | E::Simulator(SimulatorError::Log(log)) => log,
-            _ => return false,
+            E::Log(log) => is_of_a_log(log),
+            E::Robot(robot) => is_of_a_robot(robot),
+            E::Document(document) => is_of_a_document(document),
+            E::Simulator(error) => is_of_a_simulation(error),
+            _ => false,
         },
         B::Population(error) => match &**error {
-            P::Folder { .. } => return true,
-            P::Log(log) => log,
-            P::Simulator(error) => match &**error {
-                SimulatorError::Log(log) => log,
-                _ => return false,
-            },
-            _ => return false,
+            P::Folder { .. } => true,
+            P::Log(log) => is_of_a_log(log),
+            P::Robot(robot) => is_of_a_robot(robot),
+            P::Document(document) => is_of_a_document(document),
+            P::Simulator(error) => is_of_a_simulation(error),
+            _ => false,
         },
-        _ => return false,
-    };
-    matches!(log, LogError::Unwritable { .. })
+        _ => false,
+    }
+}
+
+fn is_of_a_log(error: &LogError) -> bool {
+    use LogError as L;
+    matches!(error, L::Unwritable { .. } | L::File(FormatError::Unreadable { .. }))
+}
+
+fn is_of_a_robot(error: &RobotError) -> bool {
+    matches!(error, RobotError::Unreadable { .. })
+}
+
+fn is_of_a_document(error: &DocumentError) -> bool {
+    matches!(error, DocumentError::Unreadable { .. })
+}
+
+fn is_of_a_simulation(error: &SimulatorError) -> bool {
+    match error {
+        SimulatorError::Log(log) => is_of_a_log(log),
+        SimulatorError::Scenario(document) => is_of_a_document(document),
+        _ => false,
+    }
 }

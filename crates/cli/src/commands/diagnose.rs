@@ -231,8 +231,7 @@ fn record(
     diagnosed: &DiagnosedLogs<'_>,
 ) -> Result<Option<PathBuf>, CliError> {
     if arguments.no_recording || !recording::IS_BUILT {
-        // One of an earlier diagnosis would show something else than the report beside it.
-        let _ = std::fs::remove_file(arguments.out.join(RECORDING));
+        remove_recordings(&arguments.out);
         return Ok(None);
     }
     let recorded = with_bar(Quiet(arguments.quiet), |progress| {
@@ -261,8 +260,7 @@ pub fn write_recording(
     progress: &dyn DiagnosisProgress,
 ) -> Result<PathBuf, Box<ExperimentError>> {
     let (path, begun) = (out.join(RECORDING), out.join(BEGUN));
-    // One of an earlier diagnosis would show something else than the report beside it.
-    let _ = std::fs::remove_file(&path);
+    remove_recordings(out);
     let to_error = |error: ExperimentError| {
         let _ = std::fs::remove_file(&begun);
         Box::new(match error {
@@ -279,12 +277,20 @@ pub fn write_recording(
         })
     };
     experiment::record_diagnosis(&begun, diagnosed, progress).map_err(to_error)?;
-    std::fs::rename(&begun, &path).map_err(|error| {
+    let renamed = std::fs::rename(&begun, &path).and_then(|()| logs::sync_folder(out));
+    renamed.map_err(|error| {
         let reason = error.to_string();
         to_error(RecordingError::Unwritable { path: path.clone(), reason }.into())
     })?;
-    logs::sync_folder(out);
     Ok(path)
+}
+
+/// Removes the recording of an earlier diagnosis, which would show something else than the report beside it, and one
+/// that a killed process has begun.
+fn remove_recordings(out: &Path) {
+    for name in [RECORDING, BEGUN] {
+        let _ = std::fs::remove_file(out.join(name));
+    }
 }
 
 /// A comment of TOML, on one line whatever names stand in it.

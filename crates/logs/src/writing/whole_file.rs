@@ -1,5 +1,5 @@
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::fs::{self, File};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::TempPath;
@@ -56,9 +56,10 @@ impl WholeFile {
     /// The error of the operating system.
     pub fn finish(mut self) -> io::Result<()> {
         self.sync()?;
-        self.name.persist(&self.path).map_err(|error| plain(error.error))?;
-        sync_folder(folder_of(&self.path));
-        Ok(())
+        let name = self.name.keep().map_err(|error| plain(error.error))?;
+        // By the C library, where a test can refuse it: `TempPath::persist` calls the kernel itself.
+        fs::rename(&name, &self.path).inspect_err(|_| drop(fs::remove_file(&name)))?;
+        sync_folder(folder_of(&self.path))
     }
 }
 
@@ -73,10 +74,19 @@ impl Write for WholeFile {
 }
 
 /// Flushes the names in a folder to the disk, where the operating system supports it.
-pub fn sync_folder(folder: &Path) {
-    if let Ok(folder) = File::open(folder) {
-        // A file system without it has the names there in time; the bytes are there already.
-        let _ = folder.sync_all();
+///
+/// # Errors
+///
+/// The error of a disk that refuses it.
+pub fn sync_folder(folder: &Path) -> io::Result<()> {
+    // A folder that cannot be opened as a file, as on Windows, has its names there in time.
+    let Ok(folder) = File::open(folder) else { return Ok(()) };
+    match folder.sync_all() {
+        // So has a file system that knows of no such flush (fsync(2), EINVAL).
+        Err(error) if matches!(error.kind(), ErrorKind::InvalidInput | ErrorKind::Unsupported) => {
+            Ok(())
+        }
+        flushed => flushed,
     }
 }
 
@@ -95,8 +105,6 @@ fn plain(error: io::Error) -> io::Error {
 
 #[cfg(test)]
 mod tests {
-    use std::fs;
-
     use super::*;
 
     #[test]

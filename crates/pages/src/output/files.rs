@@ -1,5 +1,5 @@
 use std::fs;
-use std::io::{Read, Write};
+use std::io::Write;
 use std::path::Path;
 
 use logs::WholeFile;
@@ -13,20 +13,10 @@ use crate::output::error::ReportError;
 ///
 /// [`ReportError::Unreadable`].
 pub fn sha256_of(path: &Path) -> Result<String, ReportError> {
-    let unreadable = |e: std::io::Error| ReportError::Unreadable {
-        path: path.to_owned(),
-        reason: e.to_string(),
-    };
-    let mut file = ::files::open(path).map_err(|e| unreadable(e.into()))?;
     let mut hasher = Sha256::new();
-    let mut buffer = vec![0; 1 << 16];
-    loop {
-        let read = file.read(&mut buffer).map_err(unreadable)?;
-        if read == 0 {
-            break;
-        }
-        hasher.update(&buffer[..read]);
-    }
+    ::files::each_piece(path, |piece| hasher.update(piece)).map_err(|error| {
+        ReportError::Unreadable { path: path.to_owned(), reason: error.to_string() }
+    })?;
     Ok(hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
 }
 

@@ -153,9 +153,9 @@ impl NumpyArray {
             }
         }
         // The end of an entry of a zip archive is where its checksum is looked at.
-        match source.read(&mut [0])? {
-            0 => Ok(columns),
-            _ => {
+        match source.bytes().next().transpose()? {
+            None => Ok(columns),
+            Some(_) => {
                 Err(io::Error::new(io::ErrorKind::InvalidData, "it is longer than its header says"))
             }
         }
