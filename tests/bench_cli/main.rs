@@ -21,6 +21,9 @@ mod figure;
 #[path = "../cli/io_faults.rs"]
 mod io_faults;
 #[cfg(target_os = "linux")]
+#[path = "../cli/kills.rs"]
+mod kills;
+#[cfg(target_os = "linux")]
 #[path = "../cli/limits.rs"]
 mod limits;
 #[cfg(target_os = "linux")]

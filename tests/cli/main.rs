@@ -27,6 +27,8 @@ mod impossible;
 mod installed;
 #[cfg(target_os = "linux")]
 mod io_faults;
+#[cfg(target_os = "linux")]
+mod kills;
 mod learn;
 mod lerobot;
 #[cfg(target_os = "linux")]
