@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Processor time of the program at its limits, one thread: robots of many joints and links, wide tables, more and shorter logs of the same
-samples.
+"""Processor time of the program at its limits, one thread: robots of many joints and links, wide tables, more and shorter
+logs of the same samples.
 
     tests/benches/limits.py PROGRAM
 """

@@ -24,7 +24,7 @@ fn is_read(folder: &Path) -> bool {
 
 fn table(path: &Path) -> toml::Table {
     let text = fs::read_to_string(path).unwrap();
-    text.parse().unwrap_or_else(|error| panic!("{}: {error}\n{text}", path.display()))
+    text.parse().map_err(|error| format!("{}: {error}\n{text}", path.display())).unwrap()
 }
 
 #[test]

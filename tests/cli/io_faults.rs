@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 
 use crate::disk::{Call, Disk, Fault};
-use crate::program::{Answer, run};
+use crate::program::Answer;
 use crate::undisturbed::Undisturbed;
 use crate::writers::{SLOW, WALKED};
 
@@ -24,6 +24,13 @@ const QUICK: Duration = Duration::from_millis(600);
 const PATIENCE: Duration = Duration::from_secs(5);
 const CALLS_OF_SLOW: usize = 60;
 
+/// How many faults are tried.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Round {
+    Short,
+    Long,
+}
+
 /// Calls of each operation that a command makes, and faults that were tried.
 #[derive(Debug, Default)]
 struct Counts {
@@ -33,7 +40,7 @@ struct Counts {
 }
 
 /// Refuses calls of a command.
-fn walk(disk: &Disk, command: &'static str, is_long: bool) -> Counts {
+fn walk(disk: &Disk, command: &'static str, round: Round) -> Counts {
     let undisturbed = Undisturbed::new(command);
     undisturbed.prepare();
     let (answer, calls) = disk.run(undisturbed.path(), &undisturbed.words(), None);
@@ -42,21 +49,23 @@ fn walk(disk: &Disk, command: &'static str, is_long: bool) -> Counts {
     for call in &calls {
         *counts.calls.entry(call.operation.clone()).or_default() += 1;
     }
-    for (place, (call, fault)) in chosen(&calls, undisturbed.took, is_long).into_iter().enumerate()
-    {
-        let is_started_again = place % 4 == 0 || (is_long && undisturbed.took < QUICK);
-        match try_fault(disk, &undisturbed, (call, fault), is_started_again) {
+    for (place, (call, fault)) in chosen(&calls, undisturbed.took, round).into_iter().enumerate() {
+        let is_started_again = place % 4 == 0 || (round == Round::Long && undisturbed.took < QUICK);
+        match try_fault(disk, &undisturbed, (call, fault)) {
             Some(0 | 1) => counts.went_on += 1,
             Some(_) => counts.refused += 1,
-            None => {}
+            None => continue,
+        }
+        if is_started_again {
+            undisturbed.assert_same_again(&format!("{} {fault:?}", call.operation));
         }
     }
     counts
 }
 
 /// The faults of a round: all of a quick command in the long round, else one a call, or of some calls.
-fn chosen(calls: &[Call], took: Duration, is_long: bool) -> Vec<(&Call, Fault)> {
-    if is_long && took < QUICK {
+fn chosen(calls: &[Call], took: Duration, round: Round) -> Vec<(&Call, Fault)> {
+    if round == Round::Long && took < QUICK {
         let all = |call| Call::faults(call).iter().map(move |fault| (call, *fault));
         return calls.iter().flat_map(all).collect();
     }
@@ -65,10 +74,10 @@ fn chosen(calls: &[Call], took: Duration, is_long: bool) -> Vec<(&Call, Fault)> 
         .enumerate()
         .map(|(place, call)| (call, call.faults()[place % call.faults().len()]))
         .collect();
-    let most = match (is_long, took < PATIENCE) {
-        (true, true) => each.len(),
-        (true, false) => CALLS_OF_SLOW,
-        (false, _) => SHORT,
+    let most = match (round, took < PATIENCE) {
+        (Round::Long, true) => each.len(),
+        (Round::Long, false) => CALLS_OF_SLOW,
+        (Round::Short, _) => SHORT,
     };
     let step = each.len().div_ceil(most).max(1);
     each.into_iter().skip(step / 2).step_by(step).collect()
@@ -76,12 +85,7 @@ fn chosen(calls: &[Call], took: Duration, is_long: bool) -> Vec<(&Call, Fault)> 
 
 /// Runs a command with a fault and looks at what it says and leaves. Returns its exit code, or nothing where it did not
 /// come to the call.
-fn try_fault(
-    disk: &Disk,
-    undisturbed: &Undisturbed,
-    (call, fault): (&Call, Fault),
-    is_started_again: bool,
-) -> Option<i32> {
+fn try_fault(disk: &Disk, undisturbed: &Undisturbed, (call, fault): (&Call, Fault)) -> Option<i32> {
     undisturbed.prepare();
     let words = undisturbed.words();
     let (answer, calls) = disk.run(undisturbed.path(), &words, Some((call.number, fault)));
@@ -89,20 +93,12 @@ fn try_fault(
     let met = calls.iter().find(|call| call.is_refused)?;
     let what = format!("call {}, {} {}, {fault:?}", met.number, met.operation, met.path.display());
     let about = format!("{}: {what}: exit {}, {}", undisturbed.command, answer.code, answer.err);
-    if expected(met, fault, undisturbed.code).contains(&answer.code) {
-        if answer.code == undisturbed.code {
-            undisturbed.assert_same(&what);
-        } else {
-            assert_one_error(&answer, met, &about);
-            undisturbed.assert_nothing_half(&what);
-        }
+    assert!(expected(met, fault, undisturbed.code).contains(&answer.code), "{about}");
+    if answer.code == undisturbed.code {
+        undisturbed.assert_same(&what);
     } else {
-        panic!("{about}");
-    }
-    if is_started_again {
-        let again = run(undisturbed.path(), &words);
-        assert_eq!(again.code, undisturbed.code, "{what}: {}", again.err);
-        undisturbed.assert_same(&format!("again after {what}"));
+        assert_one_error(&answer, met, &about);
+        undisturbed.assert_nothing_half(&what);
     }
     Some(answer.code)
 }
@@ -135,9 +131,10 @@ fn a_disk_that_refuses_a_call_ends_a_command_with_2_and_leaves_nothing_half_writ
         return;
     };
     let is_long = checks::round::fresh_seeds().is_some();
+    let round = if is_long { Round::Long } else { Round::Short };
     let told = |command: &&'static str| {
         let start = Instant::now();
-        let counts = walk(&disk, command, is_long);
+        let counts = walk(&disk, command, round);
         let calls: usize = counts.calls.values().sum();
         let Counts { refused, went_on, .. } = counts;
         let seconds = start.elapsed().as_secs_f64();

@@ -49,14 +49,14 @@ impl Platter {
     }
 
     /// Files that would be empty or half under their names.
-    fn half(&self, may_grow: bool) -> Vec<&PathBuf> {
+    fn half(&self) -> impl Iterator<Item = &PathBuf> {
         let is_final = |path: &Path| {
             let of_work = ["work", "locks"].map(Path::new);
             let hidden = path.file_name().unwrap().to_string_lossy().starts_with('.');
             !hidden && !path.iter().any(|part| of_work.contains(&Path::new(part)))
         };
-        let files = self.files.iter().filter(|(path, flushed)| !**flushed && is_final(path));
-        files.map(|(path, _)| path).filter(|path| !(may_grow && grows(path))).collect()
+        let files = self.files.iter();
+        files.filter(move |(path, flushed)| !**flushed && is_final(path)).map(|(path, _)| path)
     }
 }
 
@@ -66,10 +66,10 @@ fn losses(calls: &[Call]) -> Vec<String> {
     let mut found = Vec::new();
     for call in calls.iter().filter(|call| !call.is_refused) {
         platter.take(call);
-        let half = platter.half(true).into_iter();
+        let half = platter.half().filter(|path| !grows(path));
         found.extend(half.map(|path| format!("{} after call {}", path.display(), call.number)));
     }
-    found.extend(platter.half(false).iter().map(|path| format!("{} at the end", path.display())));
+    found.extend(platter.half().map(|path| format!("{} at the end", path.display())));
     let unnamed = platter.unnamed.iter();
     found.extend(unnamed.map(|path| format!("the name {}", path.display())));
     found

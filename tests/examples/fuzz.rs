@@ -10,6 +10,7 @@
 #[path = "../readers/fuzz.rs"]
 mod fuzz;
 #[path = "../readers/targets.rs"]
+#[allow(dead_code, reason = "the tests have rounds of their own")]
 mod targets;
 
 use std::path::Path;
