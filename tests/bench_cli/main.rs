@@ -29,6 +29,9 @@ mod limits;
 #[cfg(target_os = "linux")]
 mod loopback_slurm;
 #[cfg(target_os = "linux")]
+#[path = "../cli/named_files.rs"]
+mod named_files;
+#[cfg(target_os = "linux")]
 #[path = "../cli/power_loss.rs"]
 mod power_loss;
 mod program;

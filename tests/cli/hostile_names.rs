@@ -9,7 +9,7 @@ use crate::arm::{self, Gap};
 use crate::program::run;
 
 /// Parts of a page that only the page itself may have.
-const OF_A_PAGE: [&str; 4] = ["<script", "</script", "-->", "<a href"];
+const OF_A_PAGE: [&str; 4] = ["<script", "</script", "<!--", "<a href"];
 
 /// The arm under this name, with a base of this name.
 fn named(folder: &Path, name: &str) {

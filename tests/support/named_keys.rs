@@ -8,11 +8,33 @@ pub enum Use {
     Read(&'static str, &'static [&'static str]),
     /// It is written, or is a folder whose files have names of their own.
     Folder,
-    /// The program `plumbline-bench` reads it.
-    Bench,
+    /// The program `plumbline-bench` reads it, in the same way.
+    Bench(&'static str, &'static [&'static str]),
     /// It names what the program itself has written.
     Own,
 }
+
+impl Use {
+    /// The text and the arguments with which a program reads it; `None` where that program does not.
+    pub fn read_by(self, program: &str) -> Option<(&'static str, &'static [&'static str])> {
+        match self {
+            Self::Read(text, arguments) if program.ends_with("plumbline") => {
+                Some((text, arguments))
+            }
+            Self::Bench(text, arguments) if program.ends_with("-bench") => Some((text, arguments)),
+            _ => None,
+        }
+    }
+}
+
+/// A figure from the data of two arms.
+const FIGURE: &str = r#"[figure.learning]
+learn = { train = ["training"], regression = ["regression"], points = 300 }
+test = ["test"]
+simulated.plant = "X"
+real.plant = "X"
+outside.sinusoids = { seed = 1, terms = 3, lowest_hz = 0.1, highest_hz = 0.3, duration_s = 10.0 }
+"#;
 
 /// A diagnosis of the arm that left nothing open.
 const DIAGNOSIS: &str = r#"{"schema": "plumbline.diagnosis/1", "joints": [{"name": "shoulder"}, {"name": "elbow"}], "findings": [],
@@ -24,22 +46,58 @@ pub const KEYS: &[(&str, &str, &str, Use)] = &[
     ("bench_cli/src/commands/account.rs", "Arguments", "store", Use::Folder),
     ("bench_cli/src/commands/compare.rs", "Arguments", "first", Use::Folder),
     ("bench_cli/src/commands/compare.rs", "Arguments", "second", Use::Folder),
-    ("bench_cli/src/commands/damage.rs", "Arguments", "campaign", Use::Bench),
+    ("bench_cli/src/commands/damage.rs", "Arguments", "campaign", Use::Bench("", &["damage", "X"])),
     ("bench_cli/src/commands/damage.rs", "Arguments", "out", Use::Folder),
-    ("bench_cli/src/commands/figure/arguments.rs", "Arguments", "scenario", Use::Bench),
+    (
+        "bench_cli/src/commands/figure/arguments.rs",
+        "Arguments",
+        "scenario",
+        Use::Bench("", &["figure", "X"]),
+    ),
     ("bench_cli/src/commands/missing.rs", "Folder", "folder", Use::Folder),
-    ("bench_cli/src/commands/plan.rs", "Arguments", "campaign", Use::Bench),
+    (
+        "bench_cli/src/commands/plan.rs",
+        "Arguments",
+        "campaign",
+        Use::Bench("", &["plan", "X", "--out", "out"]),
+    ),
     ("bench_cli/src/commands/plan.rs", "Arguments", "out", Use::Folder),
     ("bench_cli/src/commands/plan.rs", "Arguments", "made", Use::Folder),
     ("bench_cli/src/commands/sheets.rs", "Arguments", "store", Use::Folder),
     ("bench_cli/src/commands/submit/submission.rs", "Arguments", "folder", Use::Folder),
-    ("bench_cli/src/commands/times/measure.rs", "Arguments", "robot", Use::Bench),
+    (
+        "bench_cli/src/commands/times/measure.rs",
+        "Arguments",
+        "robot",
+        Use::Bench("", &["times", "--robot", "X"]),
+    ),
     ("bench_cli/src/commands/times/measure.rs", "Arguments", "out", Use::Folder),
     ("bench_cli/src/commands/work.rs", "Arguments", "folder", Use::Folder),
     ("bench_cli/src/commands/work.rs", "Arguments", "store", Use::Folder),
-    ("benchmark/src/paper/figure_spec.rs", "PredictionTimeFigureSpec", "robot", Use::Bench),
-    ("benchmark/src/paper/figure_spec.rs", "DataSpec", "plant", Use::Bench),
-    ("benchmark/src/trials/scenario_campaign.rs", "CampaignSpec", "scenario", Use::Bench),
+    (
+        "benchmark/src/paper/figure_spec.rs",
+        "PredictionTimeFigureSpec",
+        "robot",
+        Use::Bench(
+            "[figure.prediction_time]\nrobot = \"X\"\npoints = [10]\n",
+            &["figure", "x.toml"],
+        ),
+    ),
+    (
+        "benchmark/src/paper/figure_spec.rs",
+        "DataSpec",
+        "plant",
+        Use::Bench(FIGURE, &["figure", "x.toml"]),
+    ),
+    (
+        "benchmark/src/trials/scenario_campaign.rs",
+        "CampaignSpec",
+        "scenario",
+        Use::Bench(
+            "scenario = \"X\"\nhidden = [\"clean\"]\nseeds = 1\nseed = 1\n",
+            &["plan", "x.toml", "--out", "out"],
+        ),
+    ),
     (
         "cli/src/columns.rs",
         "ColumnArguments",
@@ -254,7 +312,7 @@ pub const KEYS: &[(&str, &str, &str, Use)] = &[
             &["simulate", "x.toml"],
         ),
     ),
-    ("population/src/spec.rs", "RecordedSpec", "data", Use::Bench),
+    ("population/src/spec.rs", "RecordedSpec", "data", Use::Folder),
     ("report/src/diagnosis/input_options.rs", "InputOptions", "packages", Use::Folder),
     (
         "simulator/src/scenario/spec.rs",

@@ -262,7 +262,7 @@ mod tests {
                 found += usize::from(shift.is_some());
             }
         }
-        assert!(found > runs.len() + 4 && found < 60, "{found}");
+        assert!((runs.len() + 4..runs.len().pow(2)).contains(&found), "{found}");
     }
 
     fn alike(runs: &[RunDesign]) -> bool {

@@ -58,7 +58,7 @@ fn token(rest: &mut Peekable<Chars>) -> Option<Token> {
                 is_quoted: true,
             },
             quote @ ('"' | '`' | '\'') => {
-                Token::Word { text: quoted(rest, quote), is_quoted: true }
+                Token::Word { text: quoted_text(rest, quote), is_quoted: true }
             }
             '-' if rest.peek() == Some(&'-') => {
                 rest.by_ref().find(|c| *c == '\n')?;
@@ -83,7 +83,7 @@ fn token(rest: &mut Peekable<Chars>) -> Option<Token> {
 }
 
 /// What stands in quotes, of which the first is read already; two of them in a row are one of the text.
-fn quoted(rest: &mut Peekable<Chars>, quote: char) -> String {
+fn quoted_text(rest: &mut Peekable<Chars>, quote: char) -> String {
     let mut text = String::new();
     while let Some(c) = rest.next() {
         if c == quote && rest.next_if_eq(&quote).is_none() {
