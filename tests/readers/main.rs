@@ -5,8 +5,10 @@
 //! `PLUMBLINE_LONG=1 cargo test --release --workspace --test readers -- --nocapture`.
 #![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
 
-mod fuzz;
-mod targets;
+mod documents;
+mod logs_of_kinds;
+mod robots;
+mod tables;
 
 use std::path::Path;
 use std::time::Instant;
@@ -16,20 +18,34 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use crate::targets::{Reader, readers};
-
 /// What an input of some kB may take at a time (bytes).
 const MEMORY: u64 = 1 << 30;
 
 /// Inputs of the long round.
 const LONG: u64 = 200_000;
 
-/// What a round makes of a reader.
-trait Round {
-    fn round(&self, first: u64, inputs: u64) -> Result<Counts, String>;
+/// A reader and what it is tried on.
+struct Reader {
+    name: &'static str,
+    /// The name of the file that it is given.
+    file: &'static str,
+    /// Inputs of the short round.
+    short: u64,
+    /// Puts files that inputs refer to into the folder, and gives good inputs.
+    seeds: fn(&Path) -> Vec<Vec<u8>>,
+    change: fn(&[u8], &mut ChaCha8Rng) -> Vec<u8>,
+    read: fn(&Path) -> Result<(), String>,
 }
 
-impl Round for Reader {
+fn readers() -> Vec<Reader> {
+    let mut readers = logs_of_kinds::readers();
+    readers.extend(robots::readers());
+    readers.extend(documents::readers());
+    readers.extend(tables::readers());
+    readers
+}
+
+impl Reader {
     /// Counts, or what went wrong.
     fn round(&self, first: u64, inputs: u64) -> Result<Counts, String> {
         let folder = tempfile::tempdir().unwrap();
@@ -55,8 +71,7 @@ impl Round for Reader {
 
 /// Gives every reader as many inputs as it says, and prints what became of them as rows of a table.
 fn try_all(first: u64, inputs: impl Fn(&Reader) -> u64 + Sync) {
-    let mut readers = readers();
-    readers.retain(|reader| reader.short > 0);
+    let readers = readers();
     let told = |reader: &Reader| {
         let start = Instant::now();
         let counts = reader.round(first, inputs(reader))?;
@@ -87,21 +102,5 @@ fn no_input_ends_or_stops_a_reader() {
             let each = LONG.div_ceil(readers().len() as u64);
             try_all(first, |_| each);
         }
-    }
-}
-
-/// Inputs of each reader in the short round.
-const FUZZED: u64 = 1000;
-
-/// The short round of `cargo run --release -p checks --example fuzz`.
-#[test]
-fn no_spliced_input_ends_a_reader_or_takes_a_second() {
-    for reader in readers() {
-        let outcome = fuzz::fuzz(&reader, 0, FUZZED);
-        assert_eq!(outcome.defects, Vec::<String>::new());
-        assert_eq!(outcome.read + outcome.refused, FUZZED, "{}", reader.name);
-        assert!(outcome.peak_mb * 1_000_000 < 2 * MEMORY, "{}: {outcome:?}", reader.name);
-        let slowest = outcome.slowest.0.as_millis();
-        println!("| {} | {} | {} | {slowest} ms |", reader.name, outcome.read, outcome.refused);
     }
 }
