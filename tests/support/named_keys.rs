@@ -46,7 +46,12 @@ pub const KEYS: &[(&str, &str, &str, Use)] = &[
     ("bench_cli/src/commands/account.rs", "Arguments", "store", Use::Folder),
     ("bench_cli/src/commands/compare.rs", "Arguments", "first", Use::Folder),
     ("bench_cli/src/commands/compare.rs", "Arguments", "second", Use::Folder),
-    ("bench_cli/src/commands/damage.rs", "Arguments", "campaign", Use::Bench("", &["damage", "X"])),
+    (
+        "bench_cli/src/commands/damage.rs",
+        "Arguments",
+        "campaign",
+        Use::Bench("", &["damage", "X", "--out", "out"]),
+    ),
     ("bench_cli/src/commands/damage.rs", "Arguments", "out", Use::Folder),
     (
         "bench_cli/src/commands/figure/arguments.rs",

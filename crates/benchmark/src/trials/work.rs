@@ -247,8 +247,10 @@ pub(crate) fn is_of_the_disk(error: &BenchmarkError) -> bool {
 }
 
 fn is_of_a_log(error: &LogError) -> bool {
+    use FormatError as F;
     use LogError as L;
-    matches!(error, L::Unwritable { .. } | L::File(FormatError::Unreadable { .. }))
+    // A decoder that cannot read on calls the file broken.
+    matches!(error, L::Unwritable { .. } | L::File(F::Unreadable { .. } | F::Broken { .. }))
 }
 
 fn is_of_a_robot(error: &RobotError) -> bool {
