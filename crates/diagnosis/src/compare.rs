@@ -85,7 +85,9 @@ pub fn compare(
     let tones = tone_sizes(&before, (robot, first_runs), &after.diagnosis.findings, &settings)?;
     let is_common = |finding: &Finding| {
         let mut same = tones.iter().filter(|size| size.at == finding.at);
-        same.any(|size| !differ(&finding.parameters, &size.parameters))
+        // The amplitude comes first; the phase of a disturbance differs from run to run.
+        let amplitude = finding.parameters.get(..1).unwrap_or_default();
+        same.any(|size| !differ(amplitude, &size.parameters))
     };
     let (alike, changes) = after.diagnosis.findings.into_iter().partition(is_common);
     first.extend(tones);
