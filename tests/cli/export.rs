@@ -68,6 +68,26 @@ fn what_was_found_is_in_the_torque_of_what_a_file_holds() {
     }
 }
 
+/// `diagnosis.json` says what stands in `extended.toml` without a name.
+#[test]
+fn an_export_tells_what_has_no_name() {
+    let folder = arm::folder(Gap::None);
+    let out = folder.path().join("out");
+    std::fs::create_dir(&out).unwrap();
+    std::fs::copy(folder.path().join("arm.urdf"), out.join("arm.urdf")).unwrap();
+    let toml = "urdf = \"arm.urdf\"\n[joint.elbow]\ncoulomb_nm = 0.8\nrotor_inertia_kg_m2 = 0.01\n";
+    std::fs::write(out.join("extended.toml"), toml).unwrap();
+    let diagnosis = r#"{"provenance": {"files": []}, "also_fitted": {"parameters": [
+        {"code": "IN03", "effect": "rotor_inertia", "joint": "elbow", "name": "inertia", "value": 0.01}]}}"#;
+    std::fs::write(out.join("diagnosis.json"), diagnosis).unwrap();
+    let answer = run(folder.path(), &["export", "out", "--to", "mjcf"]);
+    let expected = "Fitted without a name, and in the files above: IN03 rotor inertia at elbow.";
+    assert!(answer.out.contains(expected), "{}", answer.out);
+    std::fs::remove_file(out.join("diagnosis.json")).unwrap();
+    let answer = run(folder.path(), &["export", "out", "--to", "mjcf"]);
+    assert!(!answer.out.contains("without a name"), "{}", answer.out);
+}
+
 /// No format has a place for torque that ripples with the position.
 #[test]
 fn what_a_file_drops_is_not_in_its_torque() {

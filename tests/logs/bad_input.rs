@@ -196,11 +196,11 @@ fn a_joint_without_an_effort_beside_one_that_has_it_is_named() {
 
 #[test]
 fn no_time_column() {
-    let file = Scratch::new("run.csv", "Time,j1.position,j1.effort\n");
+    let file = Scratch::new("run.csv", "times,j1.position,j1.effort\n");
     assert_eq!(
         file.message(&two_joints()),
         "run.csv: there is no column time, the time of every row (s) was expected; \
-         its columns are Time, j1.position, j1.effort; did you mean Time?"
+         its columns are times, j1.position, j1.effort; did you mean times?"
     );
 }
 

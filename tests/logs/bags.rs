@@ -43,9 +43,35 @@ fn the_only_topic_is_read_and_one_of_several_is_asked_for() {
     );
     assert_eq!(
         of_topic("mcap_one_topic.mcap", Some("/arm")).unwrap_err(),
-        "run: there are no messages sensor_msgs/msg/JointState on the topic /arm; it has \
+        "run: there are no joint states on the topic /arm; it has \
          /arm/joint_states (sensor_msgs/msg/JointState, cdr), /note (std_msgs/msg/String, cdr)"
     );
+}
+
+/// Recorded where no topic has joint states: the feedback is the motion, the efforts are those of the feedback or else
+/// of the output.
+#[test]
+fn the_state_of_a_trajectory_controller_is_read_in_either_layout() {
+    for name in ["mcap_controller.mcap", "mcap_controller_old.mcap"] {
+        let run = of_topic(name, None).unwrap();
+        assert_golden(&run);
+        let desired: Vec<f64> = run.joints[1].position.iter().map(|q| q + 0.5).collect();
+        assert_eq!(run.joints[1].desired_position.as_ref(), Some(&desired), "{name}");
+        assert_eq!(run.joints[1].velocity.as_deref(), Some(&[2.0; 5][..]), "{name}");
+        assert_golden(&of_topic(name, Some("/controller/state")).unwrap());
+    }
+}
+
+#[test]
+fn joint_states_in_json_are_read_with_their_stamps_or_the_time_of_recording() {
+    for name in ["mcap_json.mcap", "mcap_json_listed.mcap", "mcap_json_no_stamp.mcap"] {
+        let run = of_topic(name, None).unwrap();
+        assert_golden(&run);
+        assert_eq!(run.joints[0].velocity.as_deref(), Some(&[2.0; 5][..]), "{name}");
+    }
+    let told = of_topic("mcap_json_other.mcap", None).unwrap_err();
+    let expected = "run: message 1 of /joint_states cannot be read: it is no joint state in JSON: invalid type";
+    assert!(told.starts_with(expected), "{told}");
 }
 
 #[test]
@@ -173,7 +199,7 @@ fn a_database_that_is_no_bag_or_lacks_its_last_messages_is_told() {
     assert!(told.ends_with("sqlite3 FILE 'pragma wal_checkpoint(truncate)' puts it in"), "{told}");
     assert_eq!(
         of_topic("sqlite_bag.db3", Some("/note")).unwrap_err(),
-        "run: there are no messages sensor_msgs/msg/JointState on the topic /note; it has \
+        "run: there are no joint states on the topic /note; it has \
          /joint_states (sensor_msgs/msg/JointState, cdr), /note (std_msgs/msg/String, cdr)"
     );
 }

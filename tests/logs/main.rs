@@ -6,6 +6,7 @@ mod bad_input;
 mod bags;
 mod bounds;
 mod damage;
+mod dates;
 mod dialects;
 mod estimators;
 mod excerpt;

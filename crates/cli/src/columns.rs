@@ -196,7 +196,15 @@ impl Reader<'_> {
         let effort = effort.as_deref().unwrap_or(ReadOptions::default().effort);
         let (topic, excerpt) = (topic.as_deref(), excerpt.excerpt());
         let RunAtPath { number, dataset } = episode;
-        ReadOptions { map: self.map.as_ref(), effort, topic, excerpt, episode: number, dataset }
+        ReadOptions {
+            map: self.map.as_ref(),
+            effort,
+            topic,
+            excerpt,
+            episode: number,
+            dataset,
+            ..ReadOptions::default()
+        }
     }
 
     /// The run of a file, or of an episode of a dataset.

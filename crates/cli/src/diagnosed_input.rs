@@ -1,5 +1,7 @@
 use std::path::{Path, PathBuf};
 
+use catalogue::EffectKind;
+use diagnosis::EffectAt;
 use report::{InputOptions, Provenance, Report};
 use serde::Deserialize;
 
@@ -19,6 +21,7 @@ pub struct DiagnosedInput {
     file: PathBuf,
     options: InputOptions,
     files: Vec<SourceFile>,
+    fitted: Vec<EffectAt>,
 }
 
 /// The part of a `diagnosis.json` that is read here.
@@ -27,6 +30,21 @@ struct Document {
     #[serde(default)]
     input: InputOptions,
     provenance: Files,
+    also_fitted: Option<AlsoFitted>,
+}
+
+/// What was fitted without a name.
+#[derive(Deserialize)]
+struct AlsoFitted {
+    parameters: Vec<FittedParameter>,
+}
+
+/// A fitted parameter, by its effect and place.
+#[derive(Deserialize)]
+struct FittedParameter {
+    effect: EffectKind,
+    joint: Option<String>,
+    link: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -52,9 +70,23 @@ impl DiagnosedInput {
         let wrong = |reason: String| DesignError::Diagnosis { path: file.clone(), reason };
         let text =
             files::text(&file, files::KEPT_BYTES).map_err(|error| wrong(error.to_string()))?;
-        let Document { input, provenance } =
+        let Document { input, provenance, also_fitted } =
             serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
-        Ok(Self { file, options: input, files: provenance.files })
+        let fitted = also_fitted.into_iter().flat_map(|also| also.parameters);
+        let place = |FittedParameter { effect, joint, link }| EffectAt { effect, joint, link };
+        Ok(Self {
+            file,
+            options: input,
+            files: provenance.files,
+            fitted: fitted.map(place).collect(),
+        })
+    }
+
+    /// What the extended robot has that no finding names, in words, each once.
+    pub fn fitted_without_a_name(&self) -> Vec<String> {
+        let mut places: Vec<String> = self.fitted.iter().map(EffectAt::words).collect();
+        places.dedup();
+        places
     }
 
     /// The folder of the diagnosis.

@@ -197,13 +197,13 @@ const LEFT_OUT: &str =
 
 const WITHOUT_EFFORT: &str = "takes the joints that have one; the others count as locked at zero or as a robot.toml says, which is right where they stood";
 
-const NO_JOINT_STATES: &str = "sensor_msgs/msg/JointState in CDR is read, which /joint_states is in ROS 2: record that topic, or write its positions and efforts as CSV and give a column map (--map)";
+const NO_JOINT_STATES: &str = "sensor_msgs/msg/JointState and control_msgs/msg/JointTrajectoryControllerState in CDR are read, and joint states in JSON: record /joint_states, or write its positions and efforts as CSV and give a column map (--map)";
 
 const DEGREES_OR_NORMALISED: &str = "in the column map: position = { column = \"...\", unit = \"deg\" } for degrees. Normalised positions are -100 to 100 over the range of the calibration from a to b (rad): scale = (b - a) / 200 and offset = (a + b) / 2, a list with one number a joint each, of position and desired_position";
 
 const OTHERS_LOCKED: &str = "the other joints are locked at zero or as a robot.toml says";
 
-const MAP: &str = "a column map (--map) says where a file with other names has its signals, --effort picks the effort column";
+const MAP: &str = "a column map (--map) says where a file with other names has its signals, and rate_hz in it the rate of a file without time; --effort picks the effort column";
 
 /// What to do about a log.
 fn of_log(log: &LogError) -> Option<&'static str> {

@@ -265,7 +265,7 @@ impl Finding {
 }
 
 /// A cause that the logs show but that is too small to be a finding.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Negligible {
     /// The effect and its place.
     #[serde(flatten)]
@@ -302,7 +302,7 @@ pub struct Dependence {
 ///
 /// The logs show none of them by itself. Where every number of a description is off by a little, all together predict
 /// better.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct AlsoFitted {
     /// The changed parameters.
     pub parameters: Vec<FittedParameter>,
@@ -312,7 +312,7 @@ pub struct AlsoFitted {
 }
 
 /// A parameter that is fitted beside the findings.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FittedParameter {
     /// The effect and its place.
     #[serde(flatten)]

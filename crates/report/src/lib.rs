@@ -38,8 +38,8 @@ pub use change::json::{change_json, change_schema};
 pub use change::page::{change_page, change_sentence, sizes_before};
 pub use learning::comparison::{ComparedJoint, DataSet, KernelRow, LearningComparison, ModelRow};
 pub use pages::{
-    FileHash, Provenance, ReportError, pack, percent, push_warnings, quote_argument, sha256_of,
-    significant, unit, write_folder, written_schema,
+    FileHash, Provenance, ReportError, TERMINAL_WIDTH, pack, percent, push_warnings,
+    quote_argument, sha256_of, significant, unit, wrap, write_folder, written_schema,
 };
 pub use replay::replay_report::{ReplayReport, ReplayedRun, ReplayedTorque, ReplayedWindow};
 pub use run::claims::{ClaimRow, ClaimUnit, claim_rows, claim_text, claims_sentence};

@@ -11,6 +11,7 @@ of another topic. Stamps begin at 1700000000.5 s; the times of recording are oth
     pip install mcap==1.6.0 mcap-ros2-support==0.6.0
 """
 
+import json
 import pathlib
 import struct
 
@@ -126,3 +127,71 @@ def write_raw(name, messages):
 
 write_raw("mcap_big_endian.mcap", [big_endian(k) for k in range(5)])
 write_raw("mcap_short_message.mcap", [big_endian(0), big_endian(1)[:-9]])
+
+POINT = (
+    "MSG: trajectory_msgs/JointTrajectoryPoint\nfloat64[] positions\nfloat64[] velocities\n"
+    "float64[] accelerations\nfloat64[] effort\nbuiltin_interfaces/Duration time_from_start\n"
+)
+DURATION = "MSG: builtin_interfaces/Duration\nint32 sec\nuint32 nanosec\n"
+CONTROLLER_STATE = "control_msgs/msg/JointTrajectoryControllerState"
+
+
+def point(**channels):
+    empty = {name: [] for name in ["positions", "velocities", "accelerations", "effort"]}
+    return {**empty, "time_from_start": {"sec": 0, "nanosec": 0}, **channels}
+
+
+def write_controller(name, fields, efforts_in):
+    """The state of a controller, of these fields; the desired position is .5 rad above the measured one."""
+    kinds = [f"trajectory_msgs/JointTrajectoryPoint {field}\n" for field in fields]
+    text = "std_msgs/Header header\nstring[] joint_names\n" + "".join(kinds)
+    text = LINE.join([text, HEADER, TIME, POINT, DURATION])
+    with open(here / name, "wb") as file:
+        writer = Writer(file, compression=CompressionType.NONE)
+        schema = writer.register_msgdef(CONTROLLER_STATE, text)
+        for k in range(5):
+            of = state(k, [0, 1])
+            measured = point(positions=of["position"], velocities=of["velocity"])
+            points = [point(positions=[q + 0.5 for q in of["position"]]), measured, point(), point()]
+            message = {"header": of["header"], "joint_names": of["name"]}
+            message |= {field: value.copy() for field, value in zip(fields, points)}
+            message[efforts_in]["effort"] = of["effort"]
+            writer.write_message("/controller/state", schema, message, k, k)
+        writer.finish()
+
+
+write_controller("mcap_controller.mcap", ["reference", "feedback", "error", "output"], "output")
+write_controller("mcap_controller_old.mcap", ["desired", "actual", "error"], "actual")
+
+
+def write_json(name, schema_name, message):
+    """Messages in JSON, recorded .125 s after one another."""
+    with open(here / name, "wb") as file:
+        writer = RawWriter(file, compression=CompressionType.NONE, use_chunking=False)
+        writer.start()
+        schema = writer.register_schema(schema_name, "jsonschema", b'{"type": "object"}')
+        channel = writer.register_channel("/joint_states", "json", schema)
+        for k in range(5):
+            at = 1_700_000_000 * 10**9 + 125_000_000 * k
+            writer.add_message(channel, at, json.dumps(message(k)).encode(), at)
+        writer.finish()
+
+
+def listed(k):
+    """As foxglove.JointStates has it, the joints in changing order."""
+    of = state(k, [0, 1] if k % 2 == 0 else [1, 0])
+    joints = zip(of["name"], of["position"], of["velocity"], of["effort"])
+    keys = ["name", "position", "velocity", "effort"]
+    stamp = of["header"]["stamp"]
+    stamp = {"sec": stamp["sec"], "nsec": stamp["nanosec"]}
+    return {"timestamp": stamp, "joints": [dict(zip(keys, joint)) for joint in joints]}
+
+
+def without_a_stamp(k):
+    return {key: value for key, value in state(k, [0, 1]).items() if key != "header"}
+
+
+write_json("mcap_json.mcap", "sensor_msgs/JointState", lambda k: state(k, [0, 1]))
+write_json("mcap_json_listed.mcap", "foxglove.JointStates", listed)
+write_json("mcap_json_no_stamp.mcap", "JointState", without_a_stamp)
+write_json("mcap_json_other.mcap", "JointState", lambda k: {"name": ["j1", 2]})

@@ -5,6 +5,7 @@ use robot::{Link, Loaded};
 use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 
+use crate::diagnosed_input::DiagnosedInput;
 use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::input::PartArguments;
@@ -77,6 +78,8 @@ struct Exports {
     schema: &'static str,
     robot: String,
     files: Vec<Written>,
+    /// What was fitted without a name and is in the files, where the folder holds a diagnosis.
+    fitted_without_a_name: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     loss: Option<Loss>,
 }
@@ -122,12 +125,17 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let held =
         exports.iter().filter_map(|(format, path, export)| Some((*format, path.clone()?, export)));
     let loss = arguments.loss.measure(&path, &loaded, &arguments.part, held)?;
+    let diagnosed = DiagnosedInput::read(&path.with_file_name("diagnosis.json")).ok();
+    let diagnosed = diagnosed.filter(|_| path.ends_with("extended.toml"));
     let written =
         |(format, path, export): (_, _, Export)| Written { format, path, quantities: export.fates };
     let exports = Exports {
         schema: SCHEMA,
         robot: loaded.robot.name().to_owned(),
         files: exports.into_iter().map(written).collect(),
+        fitted_without_a_name: diagnosed
+            .map(|diagnosed| diagnosed.fitted_without_a_name())
+            .unwrap_or_default(),
         loss,
     };
     if arguments.json {
@@ -173,6 +181,14 @@ fn text(exports: &Exports) -> String {
         });
         text.push_str(&table(&["where", "what", "fate", "how or why"], rows));
         text.push('\n');
+    }
+    if !exports.fitted_without_a_name.is_empty() {
+        let places = exports.fitted_without_a_name.join("; ");
+        let sentence = format!(
+            "Fitted without a name, and in the files above: {places}. plumbline diagnose --only-findings leaves them out."
+        );
+        let lines = report::wrap(&sentence, report::TERMINAL_WIDTH);
+        text.push_str(&(lines.join("\n") + "\n"));
     }
     text + &exports.loss.as_ref().map(Loss::text).unwrap_or_default()
 }

@@ -91,7 +91,7 @@ pub enum FormatError {
         expected: u64,
     },
     /// A bag has no joint states on a topic.
-    #[error("{}: there are no messages sensor_msgs/msg/JointState{}; it has {}",
+    #[error("{}: there are no joint states{}; it has {}",
         path.display(), topic.as_ref().map(|t| format!(" on the topic {t}")).unwrap_or_default(), few(found))]
     NoTopic {
         /// The file.

@@ -3,6 +3,7 @@
 pub(crate) mod allowance;
 pub(crate) mod bounds;
 pub(crate) mod damage;
+pub(crate) mod dates;
 pub(crate) mod error;
 pub(crate) mod excerpt;
 pub(crate) mod guard;

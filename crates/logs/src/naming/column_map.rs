@@ -39,6 +39,7 @@ pub struct ColumnMap {
     path: PathBuf,
     document: Document,
     time: Option<MappedColumn>,
+    rate_hz: Option<f64>,
     joints: Option<Vec<String>>,
     patterns: Vec<(Channel, Pattern)>,
     joint: BTreeMap<String, BTreeMap<Channel, MappedColumn>>,
@@ -47,8 +48,15 @@ pub struct ColumnMap {
 /// Two maps are equal when their entries are equal.
 impl PartialEq for ColumnMap {
     fn eq(&self, other: &Self) -> bool {
-        (&self.path, &self.time, &self.joints, &self.patterns, &self.joint)
-            == (&other.path, &other.time, &other.joints, &other.patterns, &other.joint)
+        (&self.path, &self.time, self.rate_hz, &self.joints, &self.patterns, &self.joint)
+            == (
+                &other.path,
+                &other.time,
+                other.rate_hz,
+                &other.joints,
+                &other.patterns,
+                &other.joint,
+            )
     }
 }
 
@@ -67,6 +75,8 @@ impl PartialEq for ColumnMap {
 struct MapFile {
     /// Time of the rows; by default the column that is usual in the format.
     time: Option<MappedColumn>,
+    /// Rows per second (Hz), for a file without time: row `k`, counted from 0, has the time `k / rate_hz`.
+    rate_hz: Option<f64>,
     /// Names of the joints, in the order of patterns and lists; by default the joints of the robot.
     joints: Option<Vec<String>>,
     /// Position of all joints.
@@ -165,13 +175,30 @@ impl ColumnMap {
         let map = Self {
             path: path.to_owned(),
             time: file.time,
+            rate_hz: file.rate_hz,
             joints: file.joints,
             joint: joint.collect(),
             patterns: by_channel!(file).collect(),
             document,
         };
+        map.check_rate()?;
         map.entries().try_for_each(|(path, column)| map.usable(&path, column))?;
         Ok(map)
+    }
+
+    /// Refuses a rate that is no number of rows per second, and one beside a column of time.
+    fn check_rate(&self) -> Result<(), LogError> {
+        let Some(rate_hz) = self.rate_hz else { return Ok(()) };
+        let message = match &self.time {
+            Some(time) => format!(
+                "found {rate_hz} Hz beside time = {:?}, one of them was expected",
+                time.column
+            ),
+            None if rate_hz.is_finite() && rate_hz > 0.0 => return Ok(()),
+            None => format!("found {rate_hz} Hz, a finite number greater than 0 was expected"),
+        };
+        let path = KeyPath::root().key("rate_hz");
+        Err(LogError::map(self.document.mistake(&path, message, None)))
     }
 
     /// Refuses a scale or an offset that cannot give a signal.
@@ -214,6 +241,11 @@ impl ColumnMap {
     /// The entry for time.
     pub fn time(&self) -> Option<&MappedColumn> {
         self.time.as_ref()
+    }
+
+    /// Rows per second (Hz), for a file without time.
+    pub fn rate_hz(&self) -> Option<f64> {
+        self.rate_hz
     }
 
     /// The entry for a channel of a joint.

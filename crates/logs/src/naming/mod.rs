@@ -4,4 +4,5 @@ pub(crate) mod column_map;
 pub(crate) mod map_entry;
 pub(crate) mod map_pattern;
 pub(crate) mod nearest;
+pub(crate) mod time_name;
 pub(crate) mod unit;

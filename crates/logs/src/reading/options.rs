@@ -7,6 +7,8 @@ use crate::naming::column_map::ColumnMap;
 pub struct ReadOptions<'a> {
     /// Names and units of the columns, for a file that does not use the usual ones.
     pub map: Option<&'a ColumnMap>,
+    /// Name of the column of time, where the map gives none and `<joint>.position` is usual.
+    pub time: &'a str,
     /// Suffix of the effort columns: the effort is read from `<joint>.<effort>`. The default is `effort`. With another
     /// value the columns `<joint>.effort` are kept among the further ones, and the `effort` entries of the
     /// column map are ignored.
@@ -26,6 +28,7 @@ impl Default for ReadOptions<'_> {
     fn default() -> Self {
         Self {
             map: None,
+            time: "time",
             effort: "effort",
             topic: None,
             excerpt: None,
@@ -38,7 +41,7 @@ impl Default for ReadOptions<'_> {
 impl<'a> ReadOptions<'a> {
     /// Name of the column of time.
     pub(crate) fn time(&self) -> &'a str {
-        self.map.and_then(ColumnMap::time).map_or("time", |mapped| &mapped.column)
+        self.map.and_then(ColumnMap::time).map_or(self.time, |mapped| &mapped.column)
     }
 
     /// The part of the file that is read.

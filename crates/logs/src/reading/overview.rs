@@ -7,6 +7,7 @@ use log_formats::{Damage, Needed, column_names, open};
 
 use crate::{
     error::LogError,
+    naming::time_name::times,
     reading::{
         options::ReadOptions,
         presets::{Fitting, fitting},
@@ -37,18 +38,6 @@ pub struct ColumnOverview {
     pub rises_by: Option<f64>,
 }
 
-/// Names of columns of time, without capitals.
-const TIMES: [&str; 8] = [
-    "time",
-    "t",
-    "timestamp",
-    "__time",
-    "field.header.stamp",
-    "time_s",
-    "stamp",
-    "rosbagtimestamp",
-];
-
 /// Largest number of lists, and of columns that some rows lack, that are read.
 const MOST_LISTS: usize = 64;
 
@@ -63,8 +52,7 @@ pub fn file_overview(path: &Path, options: &ReadOptions) -> Result<FileOverview,
         open(path, &request, options.dataset, &mut Damage::default())
     };
     let names = column_names(opened("time")?.as_ref(), path)?;
-    let usual = TIMES.iter().find_map(|t| names.iter().find(|n| n.to_lowercase() == *t));
-    let time = usual.or(names.first()).cloned().unwrap_or_default();
+    let time = times(&names).next().or(names.first()).cloned().unwrap_or_default();
     // Arrays are read along the axis of time.
     let file = opened(&time)?;
     let names = column_names(file.as_ref(), path)?;

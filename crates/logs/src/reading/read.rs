@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use log_formats::{Columns, Damage, FormatError, Opened, open};
+use log_formats::{Columns, CountedRows, Damage, FormatError, Opened, column_names, open};
 use robot::Robot;
 
 use crate::{
@@ -10,6 +10,7 @@ use crate::{
         turns::to_turn_of,
     },
     error::LogError,
+    naming::{column_map::ColumnMap, time_name::other_time},
     reading::{options::ReadOptions, plan::Plan, position_loop},
     runs::{repair::Repair, run::Run},
 };
@@ -36,9 +37,12 @@ use crate::{
 /// Other arrays are left out.
 ///
 /// A ROS 2 bag is an MCAP or SQLite file, or a folder with `metadata.yaml` and such files. The messages
-/// `sensor_msgs/msg/JointState` of one topic are read, and joints are found by the names in each message. A message
-/// without any of the robot's joints is left out. Time is that of the stamps, counted from the
-/// first stamp. In errors a row is a message of the topic.
+/// `sensor_msgs/msg/JointState` of one topic are read, or else `control_msgs/msg/JointTrajectoryControllerState` or joint
+/// states in JSON, and joints are found by the names in each message. A message without any of the robot's joints is left
+/// out. Time is that of the stamps, counted from the first stamp. In errors a row is a message of the topic.
+///
+/// Time is the column `time` (s), or else the only one with another name of time, such as `Time`, `t` or `timestamp`.
+/// Dates are counted in seconds from the first one. A file without time has the time of its rows by the map's `rate_hz`.
 ///
 /// In a LeRobot dataset, a folder with `meta/info.json`, each episode is a run. Its lists are the columns
 /// `observation.state[0]` and so on, and also `observation.state[elbow]` where `meta/info.json` names the entries.
@@ -91,7 +95,19 @@ fn read(
     let map = options.map.map(|map| map.for_robot(robot)).transpose()?;
     let options = &ReadOptions { map: map.as_ref(), ..*options };
     let file = open(path, &options.request(), options.dataset, damage)?;
-    read_open_log((path, file.as_ref()), robot, options, damage)
+    if let Some(rate_hz) = map.as_ref().and_then(ColumnMap::rate_hz) {
+        let counted = CountedRows { log: file, rate_hz };
+        return read_open_log((path, &counted), robot, options, damage);
+    }
+    match other_time(&column_names(file.as_ref(), path)?, options.time()) {
+        Some(time) if options.map.and_then(ColumnMap::time).is_none() => {
+            let options = &ReadOptions { time: &time, ..*options };
+            // Arrays are read along the axis of time.
+            let file = open(path, &options.request(), options.dataset, damage)?;
+            read_open_log((path, file.as_ref()), robot, options, damage)
+        }
+        _ => read_open_log((path, file.as_ref()), robot, options, damage),
+    }
 }
 
 /// Makes a run of columns in memory, with the checks of [`read_run`]. The columns are
@@ -108,7 +124,10 @@ pub fn run_of_columns(
     robot: &Robot,
     options: &ReadOptions,
 ) -> Result<Run, LogError> {
-    let expected = columns.get(options.time()).map_or(0, Vec::len);
+    let rate_hz = options.map.and_then(ColumnMap::rate_hz);
+    let of_time = columns.get(options.time()).filter(|_| rate_hz.is_none());
+    let any = columns.values().next().filter(|_| rate_hz.is_some());
+    let expected = of_time.or(any).map_or(0, Vec::len);
     if let Some((column, samples)) = columns.iter().find(|(_, x)| x.len() != expected) {
         let error = FormatError::ColumnLength {
             path: name.into(),
@@ -121,8 +140,13 @@ pub fn run_of_columns(
     }
     let map = options.map.map(|map| map.for_robot(robot)).transpose()?;
     let options = &ReadOptions { map: map.as_ref(), ..*options };
-    let file = Columns(columns);
-    let run = read_open_log((Path::new(name), &file), robot, options, &mut Damage::Refused)?;
+    let columns = Columns(columns);
+    let file: Box<dyn Opened> = match rate_hz {
+        Some(rate_hz) => Box::new(CountedRows { log: Box::new(columns), rate_hz }),
+        None => Box::new(columns),
+    };
+    let log = (Path::new(name), file.as_ref());
+    let run = read_open_log(log, robot, options, &mut Damage::Refused)?;
     // A dot in the name begins no extension.
     Ok(Run { name: name.to_owned(), ..run })
 }

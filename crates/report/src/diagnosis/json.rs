@@ -1,6 +1,6 @@
 use diagnosis::{
-    DataSummary, EffectAt, Estimate, Finding, InverseGain, JointReport, RuledOut, Unexplained,
-    Verdict,
+    AlsoFitted, DataSummary, EffectAt, Estimate, Finding, InverseGain, JointReport, Negligible,
+    RuledOut, Unexplained, Verdict,
 };
 use experiment::ForwardGap;
 use schemars::{JsonSchema, Schema};
@@ -40,6 +40,11 @@ struct Document<'a> {
     joints: &'a [JointReport],
     /// Named causes, the largest share first.
     findings: Vec<FindingByName<'a>>,
+    /// Causes that the logs show and that are too small to matter.
+    negligible: &'a [Negligible],
+    /// What is fitted without a name beside the findings, and stands in the extended robot as well.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    also_fitted: Option<&'a AlsoFitted>,
     /// Structure that no named cause explains.
     unexplained: &'a [Unexplained],
     /// Effects that were tested and not found.
@@ -105,6 +110,8 @@ impl<'a> Document<'a> {
             verdict: diagnosis.verdict,
             joints: &diagnosis.joints,
             findings: diagnosis.findings.iter().map(FindingByName::new).collect(),
+            negligible: &diagnosis.negligible,
+            also_fitted: diagnosis.also_fitted.as_ref(),
             unexplained: &diagnosis.unexplained,
             ruled_out: &diagnosis.ruled_out,
             gain: Gains { inverse: &diagnosis.gain.inverse, forward: report.forward },
@@ -170,6 +177,7 @@ mod tests {
     fn parameters_stand_under_their_names_and_not_a_number_is_null() {
         let mut sample = sample::arm();
         sample.diagnosis.findings[0].log_evidence = f64::NAN;
+        sample.diagnosis.also_fitted = Some(sample::also_fitted());
         let text = super::json(&sample.report()).unwrap();
         let value: serde_json::Value = serde_json::from_str(&text).unwrap();
         assert_eq!(value["schema"], "plumbline.diagnosis/1");
@@ -181,6 +189,9 @@ mod tests {
         assert_eq!(finding["parameters"]["level"]["unit"], "N m");
         assert_eq!(finding["parameters"]["level"]["ci95"][1], 2.2);
         assert!(finding["log_evidence"].is_null());
+        let fitted = &value["also_fitted"]["parameters"][0];
+        assert!(fitted["code"].is_string() && fitted["value"].is_number(), "{fitted}");
+        assert!(value["negligible"].is_array());
         assert!(value["provenance"]["files"][0]["sha256"].is_string());
     }
 }

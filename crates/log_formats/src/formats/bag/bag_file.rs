@@ -14,10 +14,10 @@ use crate::{
     file_format::{FileFormat, Magic, Opened, Request},
     formats::bag::{
         folder_files::files_of,
-        joint_state::{JointState, TYPE},
         joint_states::JointStates,
+        message_kind::{self, MessageKind},
         storage::Storage,
-        topic::{MessageSink, Topic},
+        topic::{Message, MessageSink, Topic},
     },
 };
 
@@ -31,19 +31,27 @@ pub(crate) struct Bag {
 }
 
 impl Bag {
-    /// Reads the joint states of a topic from several files in sequence.
+    /// Reads the joint states of a topic from several files in sequence. Where the files have none of the usual kind,
+    /// they are read again for the others.
     pub(crate) fn open(
         path: &Path,
         files: &[(PathBuf, Storage, File)],
         topic: Option<&str>,
         damage: &mut Damage,
     ) -> Result<Self, FormatError> {
-        let (by_topic, others) = (BTreeMap::new(), BTreeSet::new());
-        let mut states = TopicStates { path, topic, by_topic, others };
-        for (path, storage, file) in files {
-            (storage.read)(path, file, &mut states, damage)?;
+        let mut read = |kinds| {
+            let (by_topic, others) = (BTreeMap::new(), BTreeSet::new());
+            let mut states = TopicStates { path, topic, kinds, by_topic, others };
+            for (path, storage, file) in files {
+                (storage.read)(path, file, &mut states, damage)?;
+            }
+            Ok(states)
+        };
+        let states: TopicStates = read(message_kind::USUAL)?;
+        match states.by_topic.is_empty() {
+            true => read(message_kind::OTHERS)?.choose(),
+            false => states.choose(),
         }
-        states.choose()
     }
 }
 
@@ -95,15 +103,18 @@ impl FileFormat for Storage {
 struct TopicStates<'a> {
     path: &'a Path,
     topic: Option<&'a str>,
+    /// The kinds of message that are read.
+    kinds: &'static [MessageKind],
     by_topic: BTreeMap<String, JointStates>,
     /// Topics of other types, with their type.
     others: BTreeSet<String>,
 }
 
 impl TopicStates<'_> {
-    fn is_wanted(&self, topic: &Topic) -> bool {
+    /// The kind of the messages of a topic that is to be read.
+    fn kind_of(&self, topic: &Topic) -> Option<MessageKind> {
         let is_asked_for = self.topic.is_none_or(|asked| asked == topic.name);
-        topic.kind == TYPE && topic.encoding == "cdr" && is_asked_for
+        self.kinds.iter().find(|kind| is_asked_for && (kind.is_of)(topic)).copied()
     }
 
     /// Selects the joint states of one topic.
@@ -128,7 +139,7 @@ impl TopicStates<'_> {
 
 impl MessageSink for TopicStates<'_> {
     fn add_topic(&mut self, topic: &Topic) {
-        if self.is_wanted(topic) {
+        if self.kind_of(topic).is_some() {
             self.by_topic.entry(topic.name.clone()).or_insert_with(JointStates::new);
         } else {
             let named = format!("{} ({}, {})", topic.name, topic.kind, topic.encoding);
@@ -137,12 +148,13 @@ impl MessageSink for TopicStates<'_> {
     }
 
     fn wants(&self, topic: &Topic) -> bool {
-        self.is_wanted(topic)
+        self.kind_of(topic).is_some()
     }
 
-    fn add_message(&mut self, topic: &Topic, message: &[u8]) -> Result<(), FormatError> {
+    fn add_message(&mut self, topic: &Topic, message: &Message) -> Result<(), FormatError> {
+        let Some(kind) = self.kind_of(topic) else { return Ok(()) };
         let states = self.by_topic.entry(topic.name.clone()).or_insert_with(JointStates::new);
-        let result = JointState::decode(message).and_then(|state| states.push(state));
+        let result = (kind.decode)(message).and_then(|message| states.push(message));
         result.map_err(|reason| FormatError::BadMessage {
             path: self.path.to_owned(),
             topic: topic.name.replace(char::is_control, "?"),

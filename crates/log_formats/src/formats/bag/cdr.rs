@@ -69,6 +69,14 @@ impl<'a> Cdr<'a> {
         Some(values)
     }
 
+    /// The header and the names of a message about joints: time of the stamp (ns), names.
+    pub(crate) fn stamped_names(&mut self) -> Option<(i64, Vec<String>)> {
+        let (seconds, nanoseconds) = (self.i32()?, self.u32()?);
+        self.text()?;
+        let names = self.sequence(|cdr| cdr.text().map(str::to_owned))?;
+        Some((i64::from(seconds) * 1_000_000_000 + i64::from(nanoseconds), names))
+    }
+
     fn take<const SIZE: usize>(&mut self) -> Option<[u8; SIZE]> {
         let start = self.at.checked_next_multiple_of(SIZE)?;
         let bytes = *self.values.get(start..)?.first_chunk::<SIZE>()?;

@@ -5,7 +5,7 @@ use crate::{
         bounds::MOST_COLUMNS,
         table::{Needed, Rows, Table, TableCell},
     },
-    formats::bag::joint_state::JointState,
+    formats::bag::joint_message::JointMessage,
 };
 
 /// The joint states of a topic, in recorded order. Messages may be of different joints.
@@ -15,7 +15,7 @@ pub(crate) struct JointStates {
     names: Vec<String>,
     columns: BTreeMap<String, usize>,
     /// Index of each layout in `filled`, by the joints and the channels of a message.
-    layouts: BTreeMap<(Vec<String>, [bool; 3]), usize>,
+    layouts: BTreeMap<(Vec<String>, Vec<&'static str>), usize>,
     filled: Vec<Vec<usize>>,
     /// Number of names in all layouts.
     named: usize,
@@ -52,18 +52,16 @@ impl JointStates {
     }
 
     /// Adds a message, or gives the reason why it does not fit.
-    pub(crate) fn push(&mut self, message: JointState) -> Result<(), String> {
-        for (_, values) in message.channels() {
-            self.values.extend(values);
-        }
-        let has = message.channels().map(|(_, values)| !values.is_empty());
-        let stamp_ns = message.stamp_ns;
-        let fills = has.contains(&true);
-        let key = (if fills { message.names } else { Vec::new() }, has);
+    pub(crate) fn push(&mut self, message: JointMessage) -> Result<(), String> {
+        let JointMessage { stamp_ns, joints, channels } = message;
+        let names = channels.iter().map(|(name, _)| *name).collect::<Vec<_>>();
+        let joints = if names.is_empty() { Vec::new() } else { joints };
+        self.values.extend(channels.into_iter().flat_map(|(_, values)| values));
+        let key = (joints, names);
         let layout = match self.layouts.get(&key) {
             Some(&layout) => layout,
             None => {
-                let filled = self.fill_by(&key.0, has)?;
+                let filled = self.fill_by(&key.0, &key.1)?;
                 self.named += key.0.len();
                 if self.named > MOST_NAMES {
                     return Err("its joints are in ever another order".to_owned());
@@ -78,11 +76,9 @@ impl JointStates {
     }
 
     /// The columns of a message with these joints, in the order of its values.
-    fn fill_by(&mut self, joints: &[String], has: [bool; 3]) -> Result<Vec<usize>, String> {
+    fn fill_by(&mut self, joints: &[String], channels: &[&str]) -> Result<Vec<usize>, String> {
         let mut filled = Vec::new();
-        for (channel, _) in
-            ["position", "velocity", "effort"].iter().zip(has).filter(|(_, has)| *has)
-        {
+        for channel in channels {
             for joint in joints {
                 let joint = joint.replace(char::is_control, "?");
                 let name = format!("{joint}.{channel}");

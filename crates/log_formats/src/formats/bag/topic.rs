@@ -10,6 +10,15 @@ pub(crate) struct Topic {
     pub encoding: String,
 }
 
+/// A message of a topic.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Message<'a> {
+    /// The bytes in the topic's encoding.
+    pub data: &'a [u8],
+    /// Time at which it was recorded (ns), where the storage tells it.
+    pub recorded_ns: Option<i64>,
+}
+
 /// Receives the topics and messages of a bag.
 pub(crate) trait MessageSink {
     /// Receives a topic, before its messages.
@@ -19,5 +28,5 @@ pub(crate) trait MessageSink {
     fn wants(&self, topic: &Topic) -> bool;
 
     /// Receives a message.
-    fn add_message(&mut self, topic: &Topic, message: &[u8]) -> Result<(), FormatError>;
+    fn add_message(&mut self, topic: &Topic, message: &Message) -> Result<(), FormatError>;
 }

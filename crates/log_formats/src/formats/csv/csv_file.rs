@@ -8,6 +8,7 @@ use crate::{
     common::{
         bounds::{BoundedLines, check_columns},
         damage::Damage,
+        dates::{TIME, date_ns},
         error::FormatError,
         sha256::sha256_of_files,
         table::{Needed, Rows, Table, TableCell},
@@ -93,12 +94,18 @@ impl CsvFile {
         // The start of the line shows too many names, before all of them are read.
         next(&mut self.records(PREVIEW)?)?;
         let mut records = self.records(u64::MAX)?;
-        let first = next(&mut records)?;
+        let mut first = next(&mut records)?;
         if self.dialect.header == Header::Numbers {
             return Ok(((1..=first.len()).map(|k| format!("column_{k}")).collect(), Vec::new()));
         }
         // A first row that cannot be read is told when all are read.
-        let listed = listed_names(&first, &next(&mut records).unwrap_or_default());
+        let row = next(&mut records).unwrap_or_default();
+        let begins_with_a_date = row.first().is_some_and(|field| date_ns(field).is_some());
+        if begins_with_a_date && first[0].is_empty() && !first.iter().any(|name| name == TIME) {
+            // The index of a table of pandas.
+            TIME.clone_into(&mut first[0]);
+        }
+        let listed = listed_names(&first, &row);
         Ok((with_names(&first, &listed), listed))
     }
 

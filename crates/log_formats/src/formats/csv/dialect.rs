@@ -1,4 +1,7 @@
-use crate::common::table::TableCell;
+use crate::common::{
+    dates::{Dates, date_ns},
+    table::TableCell,
+};
 
 /// Dialect of a table in text: the separator of the fields, and the start of the rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -132,9 +135,12 @@ fn is_number(field: &[u8], separator: u8) -> bool {
     matches!(Numerals::between(separator).cell(field), TableCell::Number(_))
 }
 
-/// Notation of the numbers in a column.
+/// Notation of the numbers in a column. A column of dates holds seconds from its first one.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Numerals {
+    dates: Dates,
+    /// Whether the column has a number.
+    has_number: bool,
     /// The decimal mark; `None` before a number with a fraction was read.
     mark: Option<u8>,
     /// Whether the decimal mark may be a comma.
@@ -144,11 +150,12 @@ pub(crate) struct Numerals {
 impl Numerals {
     /// The notation of fields between separators of this kind.
     pub(crate) fn between(separator: u8) -> Self {
-        Self { mark: None, commas: separator != b',' }
+        let (dates, has_number, mark) = (Dates::default(), false, None);
+        Self { dates, has_number, mark, commas: separator != b',' }
     }
 
     /// The content of a field. A comma is a decimal mark, never a thousands separator. A column
-    /// with decimal points has no decimal commas.
+    /// with decimal points has no decimal commas, a column of dates no numbers.
     pub(crate) fn cell(&mut self, field: &[u8]) -> TableCell {
         if field.is_empty() {
             return TableCell::Empty;
@@ -165,11 +172,15 @@ impl Numerals {
             Some(_) if mark.is_some() && self.mark.is_some() && mark != self.mark => {
                 TableCell::Text
             }
+            Some(_) if self.dates.has_begun() => TableCell::Text,
             Some(number) => {
-                self.mark = self.mark.or(mark);
+                (self.has_number, self.mark) = (true, self.mark.or(mark));
                 TableCell::Number(number)
             }
-            None => TableCell::Text,
+            None => match date_ns(text).filter(|_| !self.has_number) {
+                Some(date_ns) => TableCell::Number(self.dates.seconds(date_ns)),
+                None => TableCell::Text,
+            },
         }
     }
 }
@@ -227,5 +238,16 @@ mod tests {
         assert_eq!(column.cell(b"1,234,5"), TableCell::Text);
         assert_eq!(column.cell(b""), TableCell::Empty);
         assert_eq!(Numerals::between(b',').cell(b"0,5"), TableCell::Text);
+    }
+
+    #[test]
+    fn a_column_holds_dates_or_numbers() {
+        let mut dates = Numerals::between(b',');
+        assert_eq!(dates.cell(b"2026-11-28 23:59:59.999"), TableCell::Number(0.0));
+        assert_eq!(dates.cell(b"2026-11-29 00:00:00.001"), TableCell::Number(0.002));
+        assert_eq!(dates.cell(b"0.004"), TableCell::Text);
+        let mut numbers = Numerals::between(b',');
+        assert_eq!(numbers.cell(b"0.004"), TableCell::Number(0.004));
+        assert_eq!(numbers.cell(b"2026-11-29 00:00:00.001"), TableCell::Text);
     }
 }

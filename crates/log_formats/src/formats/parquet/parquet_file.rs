@@ -27,6 +27,7 @@ use crate::{
     file_format::{FileFormat, Magic, Opened, Request},
     formats::parquet::{
         array_numbers::{append, is_number},
+        date_columns::{DateColumns, column_name, is_date},
         growing_columns::GrowingColumns,
         list_column,
         nesting::check_parquet_nesting,
@@ -110,7 +111,7 @@ impl ParquetFile {
                 Some(width) => {
                     names.extend((0..width).map(|k| list_column::part_name(field.name(), k)));
                 }
-                None => names.push(field.name().clone()),
+                None => names.push(column_name(&schema, field).to_owned()),
             }
             check_columns(&self.path, names.len())?;
         }
@@ -159,7 +160,8 @@ impl ParquetFile {
         let (path, mut builder) = (&self.path, self.builder()?);
         let mut wanted = wanted_columns(path, builder.schema(), needed)?;
         if further == Further::LeftOut {
-            wanted.retain(|&index| needed.contains(builder.schema().field(index).name()));
+            let schema = builder.schema();
+            wanted.retain(|&index| needed.contains(column_name(schema, schema.field(index))));
         }
         let mask = ProjectionMask::roots(builder.parquet_schema(), wanted);
         if let Some(rows) = rows {
@@ -173,7 +175,7 @@ impl ParquetFile {
             .build()
             .map_err(|e| broken(path, &e))?;
         let mut filter = needed.excerpt.clone();
-        let mut columns = GrowingColumns::default();
+        let (mut dates, mut columns) = (DateColumns::default(), GrowingColumns::default());
         let length = self.file.metadata().map_err(|e| FormatError::unreadable(path, &e))?.len();
         let mut allowance = Allowance::of(length);
         for batch in batches {
@@ -181,6 +183,7 @@ impl ParquetFile {
             let cells = batch.num_rows().saturating_mul(batch.num_columns());
             let unpacked = allowance.take(CELL.saturating_mul(cells as u64));
             unpacked.map_err(|e| FormatError::too_large(path, e))?;
+            let batch = dates.count_seconds(batch).map_err(|e| broken(path, &e))?;
             let is_read = filter.as_mut().and_then(|e| is_read(&batch, needed.time, e));
             columns.begin_batch(batch.num_rows(), is_read.as_ref());
             let batch = match is_read {
@@ -244,7 +247,7 @@ fn wanted_columns(
             let parts = format!("{}[", field.name());
             is_list(field.data_type()) && needed.signals.iter().any(|s| s.starts_with(&parts))
         };
-        if is_number(field.data_type()) || is_needed_list() {
+        if is_number(field.data_type()) || is_date(field.data_type()) || is_needed_list() {
             wanted.push(index);
         } else if needed.contains(field.name()) {
             return Err(FormatError::ColumnType {

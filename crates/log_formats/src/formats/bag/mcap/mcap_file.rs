@@ -12,7 +12,7 @@ use crate::{
     common::{allowance::Allowance, damage::Damage, error::FormatError, guard::guard},
     formats::bag::{
         mcap::record::{Chunk, McapRecord},
-        topic::{MessageSink, Topic},
+        topic::{Message, MessageSink, Topic},
     },
 };
 
@@ -92,9 +92,12 @@ impl Reader<'_> {
                 self.sink.add_topic(&topic);
                 self.topics.insert(id, topic);
             }
-            McapRecord::Message { channel, data } => match self.topics.get(&channel) {
+            McapRecord::Message { channel, recorded_ns, data } => match self.topics.get(&channel) {
                 Some(topic) if !self.sink.wants(topic) => {}
-                Some(topic) => self.sink.add_message(topic, data)?,
+                Some(topic) => {
+                    let recorded_ns = i64::try_from(recorded_ns).ok();
+                    self.sink.add_message(topic, &Message { data, recorded_ns })?;
+                }
                 None => return Err(self.broken(&"a message is of no channel")),
             },
             McapRecord::Chunk(_) | McapRecord::Other => {}

@@ -17,6 +17,8 @@ pub(crate) enum McapRecord<'a> {
     },
     Message {
         channel: u16,
+        /// Time at which it was recorded (ns).
+        recorded_ns: u64,
         data: &'a [u8],
     },
     Chunk(Chunk<'a>),
@@ -51,9 +53,12 @@ impl<'a> McapRecord<'a> {
             },
             op::MESSAGE => {
                 let channel = fields.u16()?;
-                // Its number, and the times of recording and of publishing.
-                fields.take::<{ 4 + 8 + 8 }>()?;
-                Self::Message { channel, data: fields.rest }
+                // Its number.
+                fields.take::<4>()?;
+                let recorded_ns = fields.u64()?;
+                // The time of publishing.
+                fields.take::<8>()?;
+                Self::Message { channel, recorded_ns, data: fields.rest }
             }
             op::CHUNK => {
                 // The times of its first and its last message.

@@ -17,7 +17,7 @@ use crate::{
             record::{SqliteValue, value},
             table::{Row, rows},
         },
-        topic::{MessageSink, Topic},
+        topic::{Message, MessageSink, Topic},
     },
 };
 
@@ -154,8 +154,9 @@ impl Bag<'_> {
                 return Ok(());
             }
             match value(&row.record(pages)?, of_data) {
-                Some(SqliteValue::Blob(message)) => {
-                    sink.add_message(topic, message).map_err(Trouble::Refused)
+                Some(SqliteValue::Blob(data)) => {
+                    let message = Message { data, recorded_ns: None };
+                    sink.add_message(topic, &message).map_err(Trouble::Refused)
                 }
                 _ => Err(format!("message {} has no data", row.id).into()),
             }
