@@ -40,6 +40,7 @@ pub(crate) fn another_robot(judge: &Judge, runs: usize) -> Option<Observation> {
         kind: ObservationKind::AnotherRobot,
         or: Vec::new(),
         units: Vec::new(),
+        zeros: Vec::new(),
         joints: (0..n).collect(),
         runs: (0..runs).collect(),
         stretches: Vec::new(),

@@ -39,6 +39,7 @@ pub(crate) fn clock(robot: &Robot, judge: &mut Judge, runs: usize) -> Vec<Observ
         kind,
         or,
         units: Vec::new(),
+        zeros: Vec::new(),
         joints,
         runs: (0..runs).collect(),
         stretches: Vec::new(),

@@ -37,6 +37,7 @@ pub(crate) fn effort_shift(
         kind: ObservationKind::EffortShifted { shift_s: later as f64 * step_s },
         or: Vec::new(),
         units: Vec::new(),
+        zeros: Vec::new(),
         joints: (0..shares.len()).collect(),
         runs: (0..runs).collect(),
         stretches: Vec::new(),

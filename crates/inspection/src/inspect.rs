@@ -13,6 +13,7 @@ use crate::overlaps::overlaps;
 use crate::pieces::pieces;
 use crate::readings::readings;
 use crate::thresholds::InspectionThresholds;
+use crate::zeros::zeros_of_runs;
 
 /// Looks for errors of logs as a whole, before causes are sought.
 ///
@@ -40,7 +41,7 @@ pub fn inspect_with(
         observations.push(wide);
         return observations;
     }
-    let all = moments.corrected.iter().zip(&moments.left_out);
+    let all = moments.corrected.iter().enumerate().zip(&moments.left_out);
     let pieces: Vec<_> =
         all.flat_map(|(run, left_out)| pieces(run, left_out, thresholds)).collect();
     let Some(thinned) = Thinned::of(runs, &pieces, thresholds) else { return observations };
@@ -60,6 +61,9 @@ pub fn inspect_with(
         observations.push(shift);
         return observations;
     }
+    if errors.is_empty() {
+        observations.extend(zeros_of_runs(&judge, runs.len()));
+    }
     observations.extend(errors);
     observations
 }
@@ -72,6 +76,7 @@ fn wide_inertias(robot: &Robot, runs: usize) -> Option<Observation> {
         or: Vec::new(),
         joints: (0..robot.joint_count()).collect(),
         units: Vec::new(),
+        zeros: Vec::new(),
         runs: (0..runs).collect(),
         stretches: Vec::new(),
         spoils: Spoils::Everything,
@@ -114,6 +119,9 @@ fn remove_described_effects(robot: &Robot, run: &mut Run) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
+
+    use crate::mend::correct;
     use crate::testing::{pendulum, swing};
 
     fn observe(change: fn(&mut Run)) -> Vec<Observation> {
@@ -148,6 +156,47 @@ mod tests {
     #[test]
     fn a_torque_constant_that_is_off_by_a_third_is_no_unit() {
         assert_eq!(observe(|run| run.joints[0].effort.iter_mut().for_each(|e| *e *= 1.33)), []);
+    }
+
+    #[test]
+    fn a_zero_that_differs_from_run_to_run_is_told_with_its_size_and_taken_off() {
+        let mut runs = vec![swing(0.3), swing(1.1), swing(2.0)];
+        for (run, zero) in runs.iter_mut().zip([0.5, 1.5, -0.2]) {
+            run.joints[0].effort.iter_mut().for_each(|e| *e += zero);
+        }
+        let found = inspect(&pendulum(), &runs);
+        let [Observation { kind: ObservationKind::ZerosOfRuns, zeros, .. }] = &found[..] else {
+            panic!("{found:?}")
+        };
+        for (zero, put_in) in zeros.iter().zip([0.5, 1.5, -0.2]) {
+            assert!((zero.offset - put_in).abs() < 0.02, "{zeros:?}");
+        }
+        let sentence = found[0].sentence(&pendulum(), &runs);
+        let begin = "The zero of the effort of joint hinge differs from run to run: 0.50";
+        assert!(sentence.starts_with(begin), "{sentence}");
+        let read = correct(&pendulum(), &runs).runs.unwrap();
+        let clean = swing(1.1).joints.remove(0).effort;
+        let off = read[1].joints[0].effort.iter().zip(&clean).map(|(a, b)| (a - b).abs());
+        assert!(off.fold(0.0, f64::max) < 0.02);
+    }
+
+    /// An offset of all runs is a cause for the search; a wrong mass about two postures leaves two offsets.
+    #[test]
+    fn one_zero_and_a_wrong_mass_are_no_zeros_of_runs() {
+        assert_eq!(observe(|run| run.joints[0].effort.iter_mut().for_each(|e| *e += 0.7)), []);
+        let about = |posture: f64, phase: f64| {
+            let mut run = swing(phase);
+            let joint = &mut run.joints[0];
+            for (q, effort) in joint.position.iter_mut().zip(&mut joint.effort) {
+                // A tenth of the motion, and a centre of mass that lies off the line of the description.
+                *effort = 0.1 * (*effort - 9.81 * q.sin());
+                *q = posture + 0.1 * *q;
+                *effort += 9.81 * (q.sin() + 0.3 * q.cos());
+            }
+            joint.velocity.iter_mut().flatten().for_each(|v| *v *= 0.1);
+            run
+        };
+        assert_eq!(inspect(&pendulum(), &[about(0.5, 0.3), about(PI - 0.5, 1.1)]), []);
     }
 
     #[test]

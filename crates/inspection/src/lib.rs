@@ -27,11 +27,12 @@ mod spikes;
 #[cfg(test)]
 mod testing;
 mod thresholds;
+mod zeros;
 
 pub use inspect::{inspect, inspect_with};
 pub use mend::{CorrectedLogs, correct, correct_with};
 pub use observation::{
     CountedTogether, JointUnit, Observation, ObservationKind, ReadingEvidence, Rival, RunStretch,
-    Spoils,
+    RunZero, Spoils,
 };
 pub use thresholds::{InspectionThresholds, MomentThresholds};

@@ -31,6 +31,7 @@ pub(crate) fn at_limits(robot: &Robot, runs: &[Run], t: &InspectionThresholds) -
             kind: ObservationKind::AtLimit { share, limit },
             or: Vec::new(),
             units: Vec::new(),
+            zeros: Vec::new(),
             joints: vec![j],
             runs: (0..runs.len()).collect(),
             stretches: Vec::new(),

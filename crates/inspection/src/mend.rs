@@ -63,6 +63,7 @@ impl Observation {
             or: Vec::new(),
             joints,
             units: Vec::new(),
+            zeros: Vec::new(),
             spoils: Spoils::Nothing,
             evidence: None,
             ..self.clone()
@@ -88,6 +89,11 @@ impl Observation {
             (K::TimeUnit { factor }, _) => {
                 let Some(unit) = power_of_ten(factor, t.time_unit) else { return false };
                 runs.iter_mut().flat_map(|run| &mut run.time).for_each(|t| *t /= unit);
+            }
+            (K::ZerosOfRuns, _) => {
+                for zero in &self.zeros {
+                    shift_effort(&mut runs[zero.run].joints[zero.joint], -zero.offset);
+                }
             }
             (K::CountedTogether(counted), _) => {
                 runs.iter_mut().for_each(|run| count_apart(run, counted));
@@ -154,6 +160,14 @@ fn scale_effort(joint: &mut Channels, by: f64) {
     scale(&mut joint.effort, by);
     if let Some(goal) = &mut joint.goal_effort {
         scale(&mut goal.values, by);
+    }
+}
+
+/// Adds an offset to the effort of a joint, and to the part of it that follows a goal.
+fn shift_effort(joint: &mut Channels, by: f64) {
+    joint.effort.iter_mut().for_each(|effort| *effort += by);
+    if let Some(goal) = &mut joint.goal_effort {
+        goal.values.iter_mut().for_each(|effort| *effort += by);
     }
 }
 

@@ -19,6 +19,8 @@ pub(crate) struct MotionSamples {
     pub step_s: f64,
     /// Velocity column, NaN where the log has none.
     pub velocity: Vec<f64>,
+    /// Index of the run of each row.
+    run: Vec<usize>,
     /// Share of the largest speed of a joint from which on it moves.
     moving_speed: f64,
     /// Rows of a joint's own motion that are enough to judge it by.
@@ -90,6 +92,7 @@ impl Thinned {
             motion: [read(0, 0), read(1, 0), read(2, 0)],
             effort: read(3, later),
             velocity: read(4, 0),
+            run: rows.iter().map(|r| self.pieces[r.piece].run).collect(),
             step_s: self.pieces.iter().map(|p| p.log_step_s).fold(0.0, f64::max),
             moving_speed: self.moving_speed,
             enough_rows: self.enough_rows,
@@ -115,6 +118,12 @@ impl MotionSamples {
         all.zip(&self.informative(j)).filter(|(_, is)| **is).map(|(x, _)| *x).collect()
     }
 
+    /// The run of each informative row of joint `j`.
+    pub fn runs(&self, j: usize) -> Vec<usize> {
+        let all = self.run.iter().zip(self.informative(j));
+        all.filter(|(_, is)| *is).map(|(run, _)| *run).collect()
+    }
+
     /// Direction of motion of joint `j` in its informative rows, smooth about rest.
     pub fn direction(&self, j: usize) -> Vec<f64> {
         let qd = self.column(&self.motion[1], j);
@@ -136,6 +145,8 @@ impl MotionSamples {
 struct Smooth {
     /// Per joint: position, velocity, acceleration, effort, velocity column.
     joints: Vec<[Vec<f64>; 5]>,
+    /// Index of the run.
+    run: usize,
     /// Time between two of its rows (s).
     step_s: f64,
     /// Time between two rows of the log (s).
@@ -184,6 +195,7 @@ impl Smooth {
         let step_s = stride as f64 * piece.step_s;
         Some(Self {
             joints: (0..piece.joints.len()).map(joint).collect(),
+            run: piece.run,
             step_s,
             log_step_s: piece.step_s,
         })

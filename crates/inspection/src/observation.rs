@@ -14,6 +14,8 @@ pub struct Observation {
     pub joints: Vec<usize>,
     /// The unit of each joint whose effort is in another one.
     pub units: Vec<JointUnit>,
+    /// The zero of each run's effort, where they differ.
+    pub zeros: Vec<RunZero>,
     /// Runs that it concerns, by index.
     pub runs: Vec<usize>,
     /// The seconds that it concerns, where it does not concern whole runs.
@@ -34,8 +36,8 @@ impl Observation {
         let runs = stretches.first().map(|s| s.run).into_iter().collect();
         let spoils = Spoils::Stretches;
         let (or, joints) = (Vec::new(), vec![joint]);
-        let units = Vec::new();
-        Self { kind, or, joints, units, runs, stretches, spoils, evidence: None }
+        let (units, zeros) = (Vec::new(), Vec::new());
+        Self { kind, or, joints, units, zeros, runs, stretches, spoils, evidence: None }
     }
 }
 
@@ -48,6 +50,17 @@ pub struct JointUnit {
     pub factor: Option<f64>,
     /// Standard error of a factor that is the joint's own; `None` where all joints have it.
     pub standard_error: Option<f64>,
+}
+
+/// What the effort of a joint is in one run where its torque is zero.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RunZero {
+    /// The joint, by index.
+    pub joint: usize,
+    /// The run, by index.
+    pub run: usize,
+    /// Effort at no torque, beyond what the description says (N m or N).
+    pub offset: f64,
 }
 
 /// A reading that explains the logs as well as another one.
@@ -148,6 +161,8 @@ pub enum ObservationKind {
     UnknownUnit,
     /// The effort lacks the torque that holds the arm against gravity.
     EffortWithoutGravity,
+    /// The effort of the joints at no torque differs from run to run.
+    ZerosOfRuns,
     /// Gravity has another direction than in the robot's description.
     GravityDirection {
         /// Acceleration of free fall that fits the efforts, in the base frame (m/s²).

@@ -102,6 +102,7 @@ fn overlap(
         kind: ObservationKind::Overlap { shift_s, length_s },
         or: Vec::new(),
         units: Vec::new(),
+        zeros: Vec::new(),
         joints: (0..runs[a].joints.len()).collect(),
         runs: vec![a, b],
         stretches: vec![

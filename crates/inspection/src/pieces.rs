@@ -7,6 +7,8 @@ use crate::thresholds::InspectionThresholds;
 /// A stretch of a run on an even clock, without the rows that are left out.
 #[derive(Debug, Clone)]
 pub(crate) struct RunPiece {
+    /// Index of the run.
+    pub run: usize,
     /// Time between two samples, on the clock of the file (s).
     pub step_s: f64,
     /// Signals of each joint.
@@ -32,7 +34,7 @@ impl RunPiece {
 ///
 /// A clock with jitter or lost rows is made even by linear interpolation.
 pub(crate) fn pieces(
-    run: &Run,
+    (index, run): (usize, &Run),
     left_out: &[Range<usize>],
     t: &InspectionThresholds,
 ) -> Vec<RunPiece> {
@@ -48,7 +50,7 @@ pub(crate) fn pieces(
             k > 0 && k < run.time.len() && run.time[k] - run.time[k - 1] > t.longest_step * usual;
         if k == run.time.len() || gap || out(k) {
             if k > start + 1 {
-                all.push(piece(run, start..k, usual, t.even_step));
+                all.push(piece((index, run), start..k, usual, t.even_step));
             }
             start = if k < run.time.len() && out(k) { k + 1 } else { k };
         }
@@ -66,7 +68,7 @@ pub(crate) fn usual_step(time: &[f64]) -> f64 {
     *steps.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
-fn piece(run: &Run, rows: Range<usize>, usual: f64, even_step: f64) -> RunPiece {
+fn piece((index, run): (usize, &Run), rows: Range<usize>, usual: f64, even_step: f64) -> RunPiece {
     let time = &run.time[rows.clone()];
     let even = time.windows(2).all(|t| (t[1] - t[0] - usual).abs() <= even_step * usual);
     let length = time.last().unwrap_or(&0.0) - time.first().unwrap_or(&0.0);
@@ -80,7 +82,7 @@ fn piece(run: &Run, rows: Range<usize>, usual: f64, even_step: f64) -> RunPiece 
         effort: read(&joint.effort),
         velocity: joint.velocity.as_deref().map(read),
     };
-    RunPiece { step_s, joints: run.joints.iter().map(joint).collect() }
+    RunPiece { run: index, step_s, joints: run.joints.iter().map(joint).collect() }
 }
 
 fn resample(time: &[f64], x: &[f64], step: f64) -> Vec<f64> {

@@ -120,6 +120,7 @@ fn observation(
         kind,
         or,
         units: joint_units(judge, &best.reading),
+        zeros: Vec::new(),
         joints,
         runs: (0..runs).collect(),
         stretches: Vec::new(),

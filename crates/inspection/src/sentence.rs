@@ -4,11 +4,14 @@ use logs::{Run, of_run};
 use robot::Robot;
 
 use crate::observation::{
-    CountedTogether, JointUnit, Observation, ObservationKind, Rival, RunStretch,
+    CountedTogether, JointUnit, Observation, ObservationKind, Rival, RunStretch, RunZero,
 };
 
 const FOREIGN: &str = "Nothing of the nominal torque is in the efforts, whatever sign, order, unit, gravity or clock \
                        they are read with";
+
+/// Zeros of runs that are listed one by one.
+const MOST_ZEROS: usize = 4;
 
 /// Stretches that are listed one by one.
 const MOST_STRETCHES: usize = 3;
@@ -22,6 +25,9 @@ impl Observation {
         let mut text = names.what(self.kind, &self.joints);
         if let Some(own) = names.own_units(&self.units) {
             text = own;
+        }
+        if let Some(zeros) = names.zeros(&self.zeros, &self.joints) {
+            text += &zeros;
         }
         if let ObservationKind::Overlap { shift_s, length_s } = self.kind {
             return names.overlap(&self.runs, shift_s, length_s);
@@ -109,6 +115,7 @@ impl Names<'_> {
                 "The unit of the effort of {at} is not known: other joints are in another unit, and the motion here does \
                  not show its own. It is read with their middle factor"
             ),
+            K::ZerosOfRuns => format!("The zero of the effort of {at} differs from run to run"),
             K::EffortWithoutGravity => "The efforts lack the torque of gravity".to_owned(),
             K::GravityDirection { .. } | K::GravityValue { .. } => self.gravity(kind),
             K::PositionOffset { offset } => {
@@ -222,6 +229,32 @@ impl Names<'_> {
         })
     }
 
+    /// The zeros of the runs, joint by joint: each, or their range where there are many.
+    fn zeros(&self, zeros: &[RunZero], joints: &[usize]) -> Option<String> {
+        let of_joint = |&joint: &usize| {
+            let own: Vec<&RunZero> = zeros.iter().filter(|zero| zero.joint == joint).collect();
+            let offsets = || own.iter().map(|zero| zero.offset);
+            let [_, unit] = self.units(&[joint]);
+            let each = match own.len() {
+                0..=MOST_ZEROS => {
+                    let each: Vec<String> = own
+                        .iter()
+                        .map(|zero| format!("{:.3} in {}", zero.offset, self.run(zero.run)))
+                        .collect();
+                    format!("{} ({unit})", each.join(", "))
+                }
+                many => format!(
+                    "{:.3} to {:.3} {unit} over {many} runs",
+                    offsets().fold(f64::INFINITY, f64::min),
+                    offsets().fold(f64::NEG_INFINITY, f64::max)
+                ),
+            };
+            if joints.len() > 1 { format!("{}: {each}", self.joint(joint)) } else { each }
+        };
+        let each: Vec<String> = joints.iter().map(of_joint).collect();
+        (!zeros.is_empty()).then(|| format!(": {}", each.join("; ")))
+    }
+
     fn alternative(&self, rival: &Rival) -> String {
         let what = self.what(rival.kind, &rival.joints);
         let mut letters = what.chars();
@@ -264,6 +297,7 @@ fn remedy(kind: ObservationKind) -> &'static str {
         K::VelocitySign => "The velocity column is not used; turn its sign.",
         K::JointsExchanged | K::EffortsExchanged => "Put the columns under the right names.",
         K::EffortUnit { .. } | K::UnknownUnit => "State the unit in the column map.",
+        K::ZerosOfRuns => "Set the torque sensors to zero before every run.",
         K::EffortWithoutGravity => {
             "Log the whole torque, or add the controller's gravity torque to the effort: without it, nothing at rest tells a mass."
         }

@@ -141,6 +141,13 @@ pub struct InspectionThresholds {
     pub fewest_values: usize,
     /// Share of the rows that two runs share that must differ from the row before (1): at rest all rows are alike.
     pub moving_rows: f64,
+    /// Factor by which an offset for each run must reduce the residual of a joint against one for all (power, 1): models that
+    /// err leave as much within a run.
+    pub zeros_of_runs: f64,
+    /// Share of the effort of a joint that counts as nothing beside the offsets of its runs (power, 1).
+    pub zeros_floor: f64,
+    /// Fewest rows in which a joint moves in a run whose zero is told.
+    pub zero_rows: usize,
     /// Errors at some moments of a run.
     pub moments: MomentThresholds,
 }
@@ -214,6 +221,9 @@ impl Default for InspectionThresholds {
             clipped_rows: 2,
             fewest_values: 20,
             moving_rows: 0.5,
+            zeros_of_runs: 16.0,
+            zeros_floor: 1e-4,
+            zero_rows: 10,
         }
     }
 }
