@@ -1,6 +1,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use rerun::sink::SinkFlushError;
 use rerun::{
     BarChart, EntityPath, RecordingStream, RecordingStreamResult, TextDocument, TextLog,
     ViewCoordinates,
@@ -28,7 +29,7 @@ const WAIT_S: f64 = 1.9;
 const POSE_PERIOD_S: f64 = 0.02;
 /// Latest time that is shown (s): the file counts nanoseconds.
 const LAST_S: f64 = 9e9;
-/// Longest wait for the disk at the end.
+/// Longest wait for the disk while the file does not grow.
 const DISK: Duration = Duration::from_secs(20);
 /// Width of the bars of a joint together.
 const BARS: f64 = 0.8;
@@ -75,7 +76,7 @@ impl Recorder {
         };
         let joint_paths = layout.plots.joint_paths().collect();
         layout.send(&stream)?;
-        stream.flush_with_timeout(DISK).map_err(|error| unwritable(path, error.to_string()))?;
+        flush_while_it_grows(&stream, path).map_err(|error| unwritable(path, error.to_string()))?;
         Ok(Self {
             stream,
             path: path.to_owned(),
@@ -234,7 +235,7 @@ impl Recorder {
             self.layout.send(&self.stream)?;
         }
         let cannot = |reason: String| unwritable(&self.path, reason);
-        if let Err(error) = self.stream.flush_with_timeout(DISK) {
+        if let Err(error) = flush_while_it_grows(&self.stream, &self.path) {
             let refusal = self.disk.refusal();
             if refusal.is_none() {
                 // A disk that does not answer would be waited for.
@@ -318,4 +319,15 @@ fn draw(
         arms.push((arm.name.to_owned(), ArmTrack::new(stream, arm, skeleton, scene.looks)?));
     }
     Ok(arms)
+}
+/// Brings all messages into the file. A busy processor takes its time; a disk that takes no byte for [`DISK`] is given up.
+fn flush_while_it_grows(stream: &RecordingStream, path: &Path) -> Result<(), SinkFlushError> {
+    let size = || std::fs::metadata(path).map_or(0, |data| data.len());
+    let mut before = size();
+    loop {
+        match stream.flush_with_timeout(DISK) {
+            Err(SinkFlushError::Timeout) if size() > before => before = size(),
+            ended => return ended,
+        }
+    }
 }
