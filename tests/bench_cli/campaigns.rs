@@ -156,6 +156,26 @@ fn what_a_killed_worker_has_left_is_in_nobodys_way() {
     assert_eq!(fs::read_dir(work).unwrap().count(), 0);
 }
 
+#[test]
+fn what_a_worker_has_left_that_was_killed_behind_its_last_shard_is_gone_after_the_next() {
+    let folder = folder();
+    let path = folder.path();
+    done(path, &["plan", "campaign.toml", "--out", "a", "--quiet"]);
+    done(path, &["work", "a", "--quiet"]);
+    let work = path.join("a/work");
+    fs::create_dir_all(work.join("00001")).unwrap();
+    fs::write(work.join("00001/waves.parquet"), "a log").unwrap();
+    fs::write(work.join("00001.lock"), "").unwrap();
+    fs::write(work.join("00003.lock"), "").unwrap();
+    // Another process is at work on this one.
+    let held = fs::File::create(work.join("00002.lock")).unwrap();
+    held.lock().unwrap();
+    assert_eq!(done(path, &["work", "a"]), "0 trials made; 0 left\n");
+    let left: Vec<_> =
+        fs::read_dir(&work).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(left, ["00002.lock"]);
+}
+
 #[cfg(unix)]
 #[test]
 fn ctrl_c_lets_the_trials_that_are_being_made_come_to_their_end() {

@@ -42,12 +42,13 @@ def table(columns: int, rows: int) -> str:
     return "time," + ",".join(f"c{k}" for k in range(1, columns)) + "\n" + "\n".join([line] * rows)
 
 
-def log(seconds: float, phase: float) -> str:
+def log(seconds: float, phase: float, start: float = 0.0) -> str:
+    """The motion of a phase, from `start` (s) of it on."""
     lines = ["time,shoulder.position,shoulder.effort"]
     for k in range(int(100 * seconds)):
-        t = 0.01 * k
+        t = start + 0.01 * k
         q = 0.8 * math.sin(2.1 * t + phase) + 0.3 * math.sin(5.3 * t + 2 * phase)
-        lines.append(f"{t:.2f},{q:.9g},{-3.92 * math.cos(q) + 0.01 * math.sin(37 * t + phase):.9g}")
+        lines.append(f"{t - start:.2f},{q:.9g},{-3.92 * math.cos(q) + 0.01 * math.sin(37 * t + phase):.9g}")
     return "\n".join(lines)
 
 
@@ -75,9 +76,11 @@ def main() -> None:
         show("log info, 10,000 columns", "log", "info", write("wide.csv", table(10_000, 400)))
         show("log info, 10,001 columns", "log", "info", write("wider.csv", table(10_001, 2)))
         diagnose = ("diagnose", "--robot", "arm.urdf", "--no-recording", "--quiet", "--out", "out", "--log")
-        for count, seconds in ((100, 60.0), (200, 30.0), (400, 15.0)):
+        for count, seconds in ((100, 60.0), (200, 30.0), (400, 15.0), (2000, 3.0)):
             logs = [write(f"log_{count}_{k}.csv", log(seconds, 0.1 * k)) for k in range(count)]
             show(f"diagnose, {count} logs of {seconds:.0f} s", *diagnose, *logs)
+        logs = [write(f"stretch_{k}.csv", log(3.0, 0.0, 3.0 * k)) for k in range(2000)]
+        show("diagnose, 2000 stretches of one motion", *diagnose, *logs)
 
 
 if __name__ == "__main__":

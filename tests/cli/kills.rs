@@ -53,11 +53,6 @@ fn kill(command: &'static str, kills: usize, seed: u64) {
 #[test]
 fn what_a_killed_command_leaves_is_gone_after_the_next() {
     let (seed, kills) = match checks::round::fresh_seeds() {
-        // What several workers leave differs in one round of three: not mended yet.
-        None if PROGRAM.ends_with("-bench") => {
-            println!("skipped: kills of plumbline-bench have a long form alone");
-            return;
-        }
         None => (1, 3),
         Some(seed) => (seed, KILLS),
     };

@@ -33,6 +33,7 @@ mod learn;
 mod lerobot;
 #[cfg(target_os = "linux")]
 mod limits;
+mod long_names;
 #[cfg(target_os = "linux")]
 mod named_files;
 #[cfg(target_os = "linux")]

@@ -325,6 +325,22 @@ fn running(folder: &Path, lines: usize) -> Child {
     child
 }
 
+#[test]
+fn a_viewer_that_nobody_started_is_missed_in_words() {
+    if std::net::TcpListener::bind("127.0.0.1:9876").is_err() {
+        println!("skipped: something listens where a viewer would");
+        return;
+    }
+    let folder = folder();
+    let told = "no viewer listened on 127.0.0.1:9876 (--live): start rerun first";
+    let answer = track(folder.path(), "out", &["--feedforward", "none", "--live"]);
+    let words = |answer: &Answer| answer.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(answer.code == 0 && words(&answer).contains(told), "{}{}", answer.out, answer.err);
+    assert_eq!(comparison(&folder.path().join("out"))["warnings"], serde_json::json!([told]));
+    let alone = track(folder.path(), "alone", &["--feedforward", "none"]);
+    assert!(alone.code == 0 && !words(&alone).contains("viewer"), "{}{}", alone.out, alone.err);
+}
+
 /// Whenever it is killed: what had been written is there, and the same as in any other run.
 #[test]
 fn a_run_that_is_killed_leaves_a_log_and_a_recording_that_read_back() {

@@ -60,6 +60,33 @@ fn a_small_parquet_of_endless_rows_is_refused() {
     assert!(told.contains("takes more than the"), "{told}");
 }
 
+/// A NumPy array of records of zeros, whose file has no bytes on the disk but for its header.
+fn zeros(rows: u64) -> Scratch {
+    let names = ["time", "j1.position", "j1.effort", "j2.position", "j2.effort"];
+    let fields: String = names.map(|name| format!("('{name}', '|i1'), ")).concat();
+    let header = format!("{{'descr': [{fields}], 'fortran_order': False, 'shape': ({rows},), }}\n");
+    let length = u16::try_from(header.len()).unwrap().to_le_bytes();
+    let file =
+        Scratch::new("run.npy", [b"\x93NUMPY\x01\x00", &length[..], header.as_bytes()].concat());
+    let bytes = (10 + header.len()) as u64 + rows * names.len() as u64;
+    File::options().write(true).open(&file.path).unwrap().set_len(bytes).unwrap();
+    file
+}
+
+#[test]
+fn a_hundred_million_rows_and_one_are_refused_before_they_are_held() {
+    let told = zeros(1000).message(&two_joints());
+    assert!(told.contains("time is 0 s after 0 s"), "{told}");
+    let file = zeros(100_000_001);
+    let mut told = String::new();
+    let held = allocation_counter::measure(|| told = file.message(&two_joints()));
+    assert_eq!(
+        told,
+        "run.npy: it has more than 100000000 rows of 5 columns, at most 100000000 were expected"
+    );
+    assert!(held.bytes_max < 1 << 20, "{} bytes", held.bytes_max);
+}
+
 #[test]
 fn links_that_lead_into_one_another_end_nothing() {
     let work = || Scratch::new("run", golden("soft_links.mat")).message(&two_joints());

@@ -8,8 +8,8 @@ use document::Document;
 use experiment::{Experiment, TrackingScenario};
 use simulator::scenario::Scenario;
 
-use crate::Reader;
-use crate::robots::changed_text;
+use super::Reader;
+use super::robots::{self, changed_text};
 
 pub fn readers() -> Vec<Reader> {
     let of = |name, seeds, read| Reader {
@@ -19,6 +19,8 @@ pub fn readers() -> Vec<Reader> {
         seeds,
         change: changed_text,
         read,
+        parse: read,
+        words: robots::TOML,
     };
     vec![
         of("scenario", scenarios, |path| {

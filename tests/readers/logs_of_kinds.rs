@@ -21,29 +21,103 @@ use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 use zip::{ZipArchive, ZipWriter, write::SimpleFileOptions};
 
-use crate::{Reader, robots, tables};
+use super::{Reader, robots, tables};
 
-static ROBOT: LazyLock<Robot> = LazyLock::new(|| Robot::from_urdf(robots::URDF).unwrap());
+pub static ROBOT: LazyLock<Robot> = LazyLock::new(|| Robot::from_urdf(robots::URDF).unwrap());
 
 pub fn readers() -> Vec<Reader> {
-    let of = |name, seeds, change| Reader { name, file: "run", short: 1500, seeds, change, read };
-    let arrays = |name, seeds, change| Reader { read: read_arrays, ..of(name, seeds, change) };
+    let of = |name, words, seeds, change| Reader {
+        name,
+        file: "run",
+        short: 1500,
+        seeds,
+        change,
+        read,
+        parse: |path| parse_with(path, &ReadOptions::default()),
+        words,
+    };
+    let arrays = |name, words, seeds, change| Reader {
+        read: read_arrays,
+        parse: |path| parse_with(path, &arrays_of_joints()),
+        ..of(name, words, seeds, change)
+    };
     let binary = |bytes: &[u8], random: &mut ChaCha8Rng| mutated::bytes(bytes, random);
     vec![
-        of("CSV", |_| vec![csv().into_bytes()], robots::changed_text),
-        of("gzip", |_| vec![gzip(csv().as_bytes())], packed),
-        of("zstd", |_| vec![zstd(csv().as_bytes())], packed),
-        of("Parquet", parquet, tables::changed),
-        arrays("Parquet of lists", parquet_of_lists, tables::changed),
-        of("MCAP", |_| golden(&["mcap_none.mcap", "mcap_zstd.mcap", "mcap_lz4.mcap"]), binary),
-        of("SQLite", |_| golden(&["sqlite_bag.db3", "sqlite_small_pages.db3"]), binary),
-        arrays("npy", |_| golden(&["numpy_records.npy"]), array),
-        arrays("npz", |_| golden(&["numpy_plain.npz", "numpy_turned.npz"]), archive),
-        arrays("MAT 7.3", |_| golden(&["matlab73_plain.mat", "matlab73_packed.mat"]), binary),
-        arrays("HDF5", |_| golden(&["hdf5_plain.h5", "hdf5_packed.h5"]), binary),
-        arrays("MAT", |_| golden(&["matlab_plain.mat", "matlab_packed.mat"]), matlab),
+        of("CSV", TEXT, |_| vec![csv().into_bytes()], robots::changed_text),
+        of("gzip", &["\x1f"], |_| vec![gzip(csv().as_bytes())], packed),
+        of("zstd", &["(\u{fd}"], |_| vec![zstd(csv().as_bytes())], packed),
+        of("Parquet", tables::PARQUET, parquet, tables::changed),
+        arrays("Parquet of lists", tables::PARQUET, parquet_of_lists, tables::changed),
+        of("MCAP", BAG, |_| golden(&["mcap_none.mcap", "mcap_zstd.mcap", "mcap_lz4.mcap"]), binary),
+        of("SQLite", BAG, |_| golden(&["sqlite_bag.db3", "sqlite_small_pages.db3"]), binary),
+        arrays("npy", NUMPY, |_| golden(&["numpy_records.npy"]), array),
+        arrays("npz", NUMPY, |_| golden(&["numpy_plain.npz", "numpy_turned.npz"]), archive),
+        arrays("MAT 7.3", HDF5, |_| golden(&["matlab73_plain.mat", "matlab73_packed.mat"]), binary),
+        arrays("HDF5", HDF5, |_| golden(&["hdf5_plain.h5", "hdf5_packed.h5"]), binary),
+        arrays("MAT", MATLAB, |_| golden(&["matlab_plain.mat", "matlab_packed.mat"]), matlab),
     ]
 }
+
+/// Words of logs as text.
+pub const TEXT: &[&str] = &[
+    "time,",
+    "j1.position",
+    "%time,field.name0,field.position0",
+    "\"",
+    "\"\"",
+    ",",
+    ";",
+    "\t",
+    "\r\n",
+    "\n",
+    "#",
+    "nan",
+    "1e400",
+    "\u{feff}",
+    "0,5",
+];
+
+/// Words of bags, of their records and of the commands that make their tables.
+pub const BAG: &[&str] = &[
+    "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT)",
+    "messages",
+    "/joint_states",
+    "sensor_msgs/msg/JointState",
+    "cdr",
+    "ros2",
+    "zstd",
+    "lz4",
+    "\u{0}\u{1}\u{0}\u{0}",
+    "(",
+    "\"",
+    "\x0d",
+    "\x7f\x7f\x7f\x7f",
+];
+
+/// Words of headers of arrays.
+const NUMPY: &[&str] = &[
+    "{'descr': '<f8', 'fortran_order': False, 'shape': (3,), }",
+    "'>f4'",
+    "'|O'",
+    "('q', '<f8', (2,))",
+    "(",
+    ")",
+    "[",
+    "True",
+    "99999999999999999999",
+    ",",
+    "PK\x01\x02",
+    "PK\x03\x04",
+    "PK\x05\x06",
+    ".npy",
+];
+
+/// First bytes of the parts of HDF5.
+const HDF5: &[&str] =
+    &["TREE", "HEAP", "SNOD", "OHDR", "GCOL", "BTHD", "BTLF", "FRHP", "FADB", "EAHD", "time", "q"];
+
+/// Names of arrays and first bytes of elements of MATLAB.
+const MATLAB: &[&str] = &["\x0e\0\0\0", "\x0f\0\0\0", "\x09\0\0\0", "time", "q", "MI", "IM"];
 
 /// Two joints for a second and a half.
 fn csv() -> String {
@@ -55,7 +129,7 @@ pub fn long_csv() -> String {
     rows(1200)
 }
 
-fn rows(count: u32) -> String {
+pub fn rows(count: u32) -> String {
     let mut text = "time,j1.position,j1.velocity,j1.effort,j2.position,j2.effort,note\n".to_owned();
     for k in 0..count {
         let t = 0.01 * f64::from(k);
@@ -66,7 +140,7 @@ fn rows(count: u32) -> String {
     text
 }
 
-fn golden(names: &[&str]) -> Vec<Vec<u8>> {
+pub fn golden(names: &[&str]) -> Vec<Vec<u8>> {
     let folder = workspace_root().join("tests/golden/logs");
     names.iter().map(|name| std::fs::read(folder.join(name)).unwrap()).collect()
 }
@@ -180,17 +254,25 @@ fn read(path: &Path) -> Result<(), String> {
 }
 
 /// The joints are columns of the arrays `q` and `tau`.
-fn read_arrays(path: &Path) -> Result<(), String> {
+fn arrays_of_joints() -> ReadOptions<'static> {
     static MAP: LazyLock<ColumnMap> = LazyLock::new(|| {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("map.toml");
         std::fs::write(&path, "position = \"q[:]\"\neffort = \"tau[:]\"\n").unwrap();
         ColumnMap::load(&path).unwrap()
     });
-    read_with(path, &ReadOptions { map: Some(&MAP), ..ReadOptions::default() })
+    ReadOptions { map: Some(&MAP), ..ReadOptions::default() }
 }
 
-fn read_with(path: &Path, options: &ReadOptions<'_>) -> Result<(), String> {
+fn read_arrays(path: &Path) -> Result<(), String> {
+    read_with(path, &arrays_of_joints())
+}
+
+pub fn parse_with(path: &Path, options: &ReadOptions<'_>) -> Result<(), String> {
+    read_run(path, &ROBOT, options).map(drop).map_err(|error| told(&error))
+}
+
+pub fn read_with(path: &Path, options: &ReadOptions<'_>) -> Result<(), String> {
     // What is there before the damage has to be usable as well.
     let torn = read_run_until_damage(path, &ROBOT, options);
     let run = match read_run(path, &ROBOT, options) {

@@ -8,7 +8,7 @@ use exchange::Format;
 use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 
-use crate::Reader;
+use super::Reader;
 
 /// Two joints, with a shape, a mimicked finger and numbers of every kind.
 pub const URDF: &str = r#"<robot name="arm">
@@ -26,22 +26,77 @@ pub const URDF: &str = r#"<robot name="arm">
 </robot>
 "#;
 
+/// Words of descriptions of robots.
+const XML: &[&str] = &[
+    "<joint name=\"j1\" type=\"continuous\">",
+    "</joint>",
+    "<link name=\"fore\">",
+    "<body>",
+    "</body>",
+    "<default class=\"a\">",
+    "<mimic joint=\"j1\" multiplier=\"2\"/>",
+    "<include file=\"classes.xml\"/>",
+    "type=\"prismatic\"",
+    "type=\"floating\"",
+    "xyz=\"1 0\"",
+    "euler=\"90 0 0\"",
+    "<!--",
+    "-->",
+    "<![CDATA[",
+    "<!DOCTYPE a [<!ENTITY b \"c\">]>",
+    "&b;",
+    "&#x1F600;",
+    "nan",
+    "\"",
+];
+
+/// Words of documents.
+pub const TOML: &[&str] = &[
+    "[joint.shoulder]\n",
+    "[[run]]\n",
+    "extends = \"input.toml\"\n",
+    "urdf = \"robot.urdf\"\n",
+    "joint = {}\n",
+    "= [",
+    "= {",
+    "]",
+    "}",
+    "\"\"\"",
+    "nan",
+    "inf",
+    "true",
+    "1979-05-27T07:32:00Z",
+    "\n",
+    ".",
+    "#",
+    "[",
+    "{a=",
+];
+
 pub fn readers() -> Vec<Reader> {
-    let of =
-        |name, file, seeds| Reader { name, file, short: 1500, seeds, change: changed_text, read };
+    let of = |name, file, words, seeds| Reader {
+        name,
+        file,
+        short: 1500,
+        seeds,
+        change: changed_text,
+        read,
+        parse: |path| Robot::load(path).map(drop).map_err(|e| e.to_string()),
+        words,
+    };
     vec![
-        of("URDF", "input.urdf", |_| vec![URDF.as_bytes().to_vec()]),
-        of("MJCF", "input.xml", |folder| {
+        of("URDF", "input.urdf", XML, |_| vec![URDF.as_bytes().to_vec()]),
+        of("MJCF", "input.xml", XML, |folder| {
             let from = workspace_root().join("tests/golden/mjcf");
             std::fs::copy(from.join("classes.xml"), folder.join("classes.xml")).unwrap();
             vec![std::fs::read(from.join("arm.xml")).unwrap()]
         }),
-        of("robot.toml", "input.toml", |folder| {
+        of("robot.toml", "input.toml", TOML, |folder| {
             let from = workspace_root().join("robots/so101");
             std::fs::copy(from.join("robot.urdf"), folder.join("robot.urdf")).unwrap();
             vec![std::fs::read(from.join("robot.toml")).unwrap()]
         }),
-        of("extended", "input.toml", extended),
+        of("extended", "input.toml", TOML, extended),
     ]
 }
 

@@ -20,9 +20,24 @@ use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 use simulator::Truth;
 
-use crate::{Reader, logs_of_kinds, robots};
+use super::{Reader, logs_of_kinds, robots};
 
 static ROBOT: LazyLock<Robot> = LazyLock::new(|| Robot::from_urdf(robots::URDF).unwrap());
+
+/// First and last bytes, names of types and of keys of Parquet, of shards and of models.
+pub const PARQUET: &[&str] = &[
+    "PAR1",
+    "ARROW:schema",
+    "time",
+    "q",
+    "plumbline.model",
+    "{\"",
+    "\":",
+    "[[",
+    "\x15",
+    "\x2c",
+    "\x4c",
+];
 
 pub fn readers() -> Vec<Reader> {
     let of = |name, seeds, read| Reader {
@@ -32,6 +47,8 @@ pub fn readers() -> Vec<Reader> {
         seeds,
         change: changed,
         read,
+        parse: read,
+        words: PARQUET,
     };
     vec![
         of("shard", shards, |path| match Record::read(path) {

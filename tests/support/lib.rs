@@ -5,8 +5,14 @@
     reason = "a broken helper should stop the test that uses it"
 )]
 
+#[cfg(feature = "fuzz")]
+extern crate self as checks;
+
 pub mod arms;
 pub mod book;
+#[cfg(feature = "fuzz")]
+#[path = "../readers/fuzz.rs"]
+pub mod fuzz;
 pub mod golden;
 pub mod hostile_names;
 pub mod lerobot;
@@ -15,4 +21,9 @@ pub mod named_keys;
 pub mod program;
 pub mod recorded;
 pub mod round;
+pub mod spliced;
 pub mod synthetic;
+#[cfg(feature = "fuzz")]
+#[path = "../readers/targets.rs"]
+pub mod targets;
+pub mod watch;

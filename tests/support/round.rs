@@ -4,16 +4,11 @@ use std::any::Any;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
-use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::thread;
-use std::time::Duration;
 
 use rand_chacha::ChaCha8Rng;
 
 use crate::arms::generator;
-
-/// A reader that takes longer hangs.
-const PATIENCE: Duration = Duration::from_secs(20);
+use crate::watch::Watch;
 
 /// Defects after which a round ends.
 const ENOUGH: usize = 5;
@@ -29,7 +24,7 @@ pub struct Counts {
 
 /// Writes an input for every seed into the file and reads it.
 ///
-/// Stops the program where one hangs.
+/// Ends the program where one hangs.
 ///
 /// # Errors
 ///
@@ -41,28 +36,11 @@ pub fn run(
     change: impl Fn(&mut ChaCha8Rng) -> Vec<u8>,
     read: impl Fn(&Path) -> Result<(), String>,
 ) -> Result<Counts, String> {
-    let (next, begun) = channel();
-    let (name, kept) = (reader.to_owned(), file.to_owned());
-    let watch = thread::spawn(move || {
-        let mut current = None;
-        loop {
-            match begun.recv_timeout(PATIENCE) {
-                Ok(seed) => current = Some(seed),
-                Err(RecvTimeoutError::Disconnected) => return,
-                Err(RecvTimeoutError::Timeout) => {
-                    eprintln!(
-                        "{name}: seed {current:?} takes over {PATIENCE:?}: {}",
-                        kept.display()
-                    );
-                    std::process::abort();
-                }
-            }
-        }
-    });
+    let watch = Watch::start(reader);
     let mut counts = Counts::default();
     let mut defects = Vec::new();
     for seed in seeds {
-        next.send(seed).unwrap();
+        watch.begin(seed);
         let input = change(&mut generator(seed));
         std::fs::write(file, &input).unwrap();
         let outcome = catch_unwind(AssertUnwindSafe(|| read(file)));
@@ -82,8 +60,6 @@ pub fn run(
             break;
         }
     }
-    drop(next);
-    watch.join().unwrap();
     if defects.is_empty() { Ok(counts) } else { Err(defects.join("\n")) }
 }
 

@@ -12,7 +12,7 @@ use robot::Robot;
 use crate::error::CliError;
 use crate::input::seconds;
 use crate::input_warnings::memory_need_gb;
-use crate::messages::{tell, warn};
+use crate::messages::{note, warn};
 
 /// What these options stand below in a help text.
 const HEADING: &str = "How logs are read";
@@ -101,10 +101,7 @@ impl LogArguments {
         if let Some(taken) =
             runs.iter().flat_map(|run| &run.mended).find_map(Repair::share_in_words)
         {
-            tell(&format_args!(
-                "note: {taken}; that needs about {} GB of memory",
-                memory_need_gb(&runs)
-            ));
+            note(&format_args!("{taken}; that needs about {} GB of memory", memory_need_gb(&runs)));
         }
         Ok(runs)
     }
@@ -274,10 +271,10 @@ impl Reader<'_> {
     }
 
     fn tell(&self, found: &Recognised) {
-        let note = format!("columns are read as --map {}: {}", found.name, found.words);
-        let is_new = self.notes.lock().is_ok_and(|mut notes| notes.insert(note.clone()));
+        let words = format!("columns are read as --map {}: {}", found.name, found.words);
+        let is_new = self.notes.lock().is_ok_and(|mut notes| notes.insert(words.clone()));
         if is_new {
-            tell(&format_args!("note: {note}"));
+            note(&words);
         }
     }
 }

@@ -6,6 +6,7 @@ use diagnosis::DiagnosisError;
 use document::{Coloring, DocumentError};
 use exchange::ExchangeError;
 use experiment::ExperimentError;
+use files::shorten_words;
 use learner::LearnerError;
 use logs::{FormatError, LogError};
 use report::ReportError;
@@ -319,7 +320,7 @@ impl CliError {
     pub fn words(&self) -> String {
         match self.mistake() {
             Some(error) => error.render(Coloring::Plain),
-            None => self.to_string(),
+            None => shorten_words(&self.to_string()).into_owned(),
         }
     }
 

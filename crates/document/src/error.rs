@@ -1,6 +1,7 @@
 use std::path::PathBuf;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet, normalize_untrusted_str};
+use files::{shorten, shorten_words};
 
 use crate::key_path::KeyPath;
 use crate::source::{SourceSpan, TextOrigin, printable};
@@ -61,7 +62,8 @@ impl DocumentError {
         message: &str,
         help: Option<String>,
     ) -> Self {
-        Self::Mistake { place: Box::new(place), path, message: printable(message), help }
+        let message = shorten_words(&printable(message)).into_owned();
+        Self::Mistake { place: Box::new(place), path, message, help }
     }
 
     /// The mistake as a compiler shows it: the lines of the file, the value underlined.
@@ -93,12 +95,13 @@ impl DocumentError {
             _ => (source.text.clone(), 0),
         };
         let span = place.span();
-        let label = (!path.segments().is_empty()).then(|| path.to_string());
+        let label = (!path.segments().is_empty()).then(|| shorten(&path.to_string()).into_owned());
         let underline = AnnotationKind::Primary.span(span.start + shift..span.end + shift);
         let snippet = Snippet::source(text).path(source.name()).annotation(underline.label(label));
         let mut group = Level::ERROR.primary_title(message).element(snippet);
         if let Some(help) = help {
-            group = group.element(Level::HELP.message(wrap(&normalize_untrusted_str(help))));
+            group = group
+                .element(Level::HELP.message(wrap(&normalize_untrusted_str(&shorten_words(help)))));
         }
         // The renderer shows the other control characters, these it lets through.
         renderer.render(&[group]).replace(|c| matches!(c, '\u{80}'..='\u{9f}'), "\u{fffd}")

@@ -1,4 +1,5 @@
 use cli::CliError;
+use files::shorten_words;
 use pyo3::PyErr;
 use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
@@ -17,7 +18,7 @@ pub fn exception(error: impl Into<CliError>) -> PyErr {
     // Errors of a place in a file begin as the program prints them.
     let words = words.strip_prefix("error: ").unwrap_or(&words);
     PlumblineError::new_err(match error.help() {
-        Some(help) => format!("{words}\nhelp: {help}"),
+        Some(help) => format!("{words}\nhelp: {}", shorten_words(&help)),
         None => words.to_owned(),
     })
 }

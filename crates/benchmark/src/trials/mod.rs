@@ -13,4 +13,5 @@ pub(crate) mod record_table;
 pub(crate) mod scenario_campaign;
 pub(crate) mod scenario_sheet;
 pub(crate) mod trial;
+pub(crate) mod trial_lock;
 pub(crate) mod work;

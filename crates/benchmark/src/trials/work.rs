@@ -1,6 +1,4 @@
 use std::any::Any;
-use std::fs::{File, TryLockError};
-use std::io::ErrorKind;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -17,11 +15,14 @@ use robot::RobotError;
 use simulator::SimulatorError;
 
 use crate::error::BenchmarkError;
-use crate::trial_folder::unusable;
 use crate::trials::campaign::Campaign;
 use crate::trials::campaign_folder::CampaignFolder;
 use crate::trials::part::Part;
 use crate::trials::record::Record;
+use crate::trials::trial_lock::{TrialLock, begun, ignore_missing, trial_folder};
+
+/// Folder of the trials that are being made.
+const WORK: &str = "work";
 
 /// The workers of a campaign: their number, their part, and the handling of the logs.
 #[derive(Debug, Clone)]
@@ -78,7 +79,8 @@ pub trait WorkProgress: Sync {
 /// ```
 ///
 /// A trial that cannot be simulated or diagnosed gets a shard with the reason. A trial that another live process is
-/// making is left to that process, which holds a lock on a file until it ends.
+/// making is left to that process, which holds a lock on a file until it ends. What a process that was killed has left of
+/// a trial with a shard is removed.
 ///
 /// # Errors
 ///
@@ -94,6 +96,7 @@ pub fn work(
         return Err(BenchmarkError::NoStore { path: store.clone() });
     }
     let store = workers.store.as_deref().map(Store::open).transpose()?;
+    sweep(folder)?;
     let mut left = folder.remaining(workers.part)?;
     if workers.chosen == ChosenTrials::Stored {
         left.retain(|task| folder.campaign().is_stored(*task, store.as_ref()));
@@ -152,19 +155,13 @@ impl WorkerRun<'_> {
     }
 
     fn make(&self, task: usize, pool: &ThreadPool) -> Result<(), BenchmarkError> {
-        let work = self.folder.folder("work")?;
-        let lock_file = work.join(format!("{task:05}.lock"));
-        let lock = File::create(&lock_file).map_err(unusable(&work))?;
-        match lock.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => return Ok(()),
-            Err(TryLockError::Error(error)) => return Err(unusable(&lock_file)(error)),
-        }
+        let work = self.folder.folder(WORK)?;
+        let Some(lock) = TrialLock::take(&work, task)? else { return Ok(()) };
         // Whoever held the lock before may have made it.
         if !self.folder.holds(task) {
             let (campaign, scenario) = (self.folder.campaign(), self.folder.scenario());
             let logs = match self.logs {
-                TrialLogs::Removed => work.join(format!("{task:05}")),
+                TrialLogs::Removed => trial_folder(&work, task),
                 TrialLogs::Kept => self.folder.folder("logs")?.join(campaign.logs(task)),
             };
             if self.logs == TrialLogs::Removed || !campaign.is_logged(task, &scenario, &logs) {
@@ -186,22 +183,28 @@ impl WorkerRun<'_> {
             }
             self.progress.finish_trial(&record, start.elapsed());
         }
-        // Whoever made it may have removed the file that this lock is on.
-        ignore_missing(std::fs::remove_file(&lock_file), &lock_file)
+        lock.remove()
     }
+}
+
+/// Removes what processes that were killed have left of trials that have their shard.
+fn sweep(folder: &CampaignFolder) -> Result<(), BenchmarkError> {
+    let work = folder.root().join(WORK);
+    for task in begun(&work)? {
+        if !folder.holds(task) {
+            continue;
+        }
+        if let Some(lock) = TrialLock::take(&work, task)? {
+            clear(&trial_folder(&work, task))?;
+            lock.remove()?;
+        }
+    }
+    Ok(())
 }
 
 /// Removes the logs of a trial, complete or not.
 fn clear(logs: &Path) -> Result<(), BenchmarkError> {
     ignore_missing(std::fs::remove_dir_all(logs), logs)
-}
-
-/// Ignores `NotFound`.
-fn ignore_missing(removed: std::io::Result<()>, path: &Path) -> Result<(), BenchmarkError> {
-    match removed {
-        Err(error) if error.kind() != ErrorKind::NotFound => Err(unusable(path)(error)),
-        _ => Ok(()),
-    }
 }
 
 /// The score of a trial, or in words why there is none. A disk failure is an error instead.

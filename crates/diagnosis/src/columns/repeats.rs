@@ -37,11 +37,10 @@ pub(crate) fn motions(design: Runs) -> Vec<usize> {
 /// with the transforms `V` of the velocities in a Hann window. It is 1 for equal spectra.
 pub(crate) fn have_one_spectrum(design: Runs) -> bool {
     let spectra = velocity_spectra(design);
-    let norm = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>().sqrt();
-    let likeness = |a: &[Vec<f64>], b: &[Vec<f64>]| {
-        let of_joint = |(a, b): (&Vec<f64>, &Vec<f64>)| {
-            let product: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
-            product / (norm(a) * norm(b)).max(f64::MIN_POSITIVE)
+    let likeness = |a: &[Spectrum], b: &[Spectrum]| {
+        let of_joint = |(a, b): (&Spectrum, &Spectrum)| {
+            let product: f64 = a.lines.iter().zip(&b.lines).map(|(a, b)| a * b).sum();
+            product / (a.norm * b.norm).max(f64::MIN_POSITIVE)
         };
         a.iter().zip(b).map(of_joint).sum::<f64>() / a.len().max(1) as f64
     };
@@ -51,20 +50,30 @@ pub(crate) fn have_one_spectrum(design: Runs) -> bool {
     pairs.all(|(a, b)| likeness(a, b) > least)
 }
 
-/// `|V|` of every joint that moved, `[run][joint][frequency]`, all at the same frequencies.
-fn velocity_spectra(design: Runs) -> Vec<Vec<Vec<f64>>> {
+/// The spectrum of a velocity.
+struct Spectrum {
+    /// `|V|` by frequency.
+    lines: Vec<f64>,
+    /// `sqrt(sum |V|²)`.
+    norm: f64,
+}
+
+/// The spectra of the joints that moved, `[run][joint]`, all at the same frequencies.
+fn velocity_spectra(design: Runs) -> Vec<Vec<Spectrum>> {
     let longest = design.runs.iter().map(|run| run.time.len()).max().unwrap_or(0);
     let size = (2 * longest).next_power_of_two();
     let mut fourier = FourierTransform::default();
-    let mut spectrum = |qd: &[f64]| -> Vec<f64> {
+    let mut spectrum = |qd: &[f64]| -> Spectrum {
         let mean = qd.iter().sum::<f64>() / qd.len().max(1) as f64;
         let window = |t: usize| 0.5 - 0.5 * (TAU * t as f64 / qd.len() as f64).cos();
         let mut padded: Vec<f64> =
             qd.iter().enumerate().map(|(t, v)| (v - mean) * window(t)).collect();
         padded.resize(size, 0.0);
-        fourier.of(&mut padded).iter().map(|v| v.norm()).collect()
+        let lines: Vec<f64> = fourier.of(&mut padded).iter().map(|v| v.norm()).collect();
+        let norm = lines.iter().map(|v| v * v).sum::<f64>().sqrt();
+        Spectrum { lines, norm }
     };
-    let mut of_run = |run: &RunDesign| -> Vec<Vec<f64>> {
+    let mut of_run = |run: &RunDesign| -> Vec<Spectrum> {
         let joints = run.joints.iter().zip(design.moved).filter(|(_, moved)| **moved);
         joints.map(|(joint, _)| spectrum(&joint.state[1])).collect()
     };
@@ -121,7 +130,8 @@ impl Path<'_> {
         /// Above what rounding makes of a sum.
         const ROUNDING: f64 = 1.0 + 1e-9;
         let begin = shift.min(0).unsigned_abs();
-        let pairs = overlap(self.samples, other.samples, shift).count();
+        // Counted by its ends: this is asked of every pair of runs at every shift.
+        let pairs = overlap(self.samples, other.samples, shift).len();
         if pairs == 0 || 2 * pairs < self.samples.max(other.samples) {
             return None;
         }
@@ -186,10 +196,15 @@ impl<'a> Runs<'a> {
 }
 
 /// Pairs of samples of two runs that coincide when the second starts `shift` samples late.
-fn overlap(first: usize, second: usize, shift: isize) -> impl Iterator<Item = (usize, usize)> {
+fn overlap(
+    first: usize,
+    second: usize,
+    shift: isize,
+) -> impl ExactSizeIterator<Item = (usize, usize)> {
     let begin = shift.min(0).unsigned_abs();
     let end = first.min(second.saturating_add_signed(-shift));
-    (begin..end).filter_map(move |s| Some((s, s.checked_add_signed(shift)?)))
+    // From `begin` on, no sum is below zero.
+    (begin..end).map(move |s| (s, s.saturating_add_signed(shift)))
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Findings outside the regression: lines of the spectrum over time and over position, and limits of the efforts.
 
+pub(crate) mod arrow_matrix;
 pub(crate) mod limits;
 pub(crate) mod lines;
 pub(crate) mod moving_runs;

@@ -1,5 +1,6 @@
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::{Complex, DVector};
 
+use crate::oscillations::arrow_matrix::{ArrowFactor, ArrowMatrix};
 use crate::signals::along::Wave;
 
 /// Rounds of Gauss-Newton: the first fits the amplitudes, the others the beat too.
@@ -58,35 +59,34 @@ impl ToneFit {
         let of = |r: usize| if sizes == 1 { 0 } else { r };
         let mut at = start;
         let mut z = vec![Complex::new(0.0, 0.0); sizes];
-        let mut covariance = DMatrix::zeros(0, 0);
+        let mut factor = None;
         for _ in 0..ROUNDS {
             let width = 2 * sizes + 1;
-            let (mut normal, mut score) = (DMatrix::zeros(width, width), DVector::zeros(width));
+            let (mut normal, mut score) = (ArrowMatrix::zeros(sizes), DVector::zeros(width));
             for (r, run) in runs.iter().enumerate() {
                 let wave = wave(r, at, run.origin);
                 let places = [2 * of(r), 2 * of(r) + 1, width - 1];
                 for (row, y) in rows(run, &wave, z[of(r)]) {
-                    for (i, a) in places.into_iter().zip(row) {
-                        score[i] += a * y;
-                        places.into_iter().zip(row).for_each(|(k, b)| normal[(i, k)] += a * b);
-                    }
+                    normal.add(of(r), row);
+                    places.into_iter().zip(row).for_each(|(i, a)| score[i] += a * y);
                 }
             }
             // For a sine of amplitude zero the beat is arbitrary.
-            if normal[(width - 1, width - 1)] <= 0.0 {
-                normal[(width - 1, width - 1)] = 1.0;
+            let of_beat = normal.corner_mut();
+            if *of_beat <= 0.0 {
+                *of_beat = 1.0;
             }
-            let factor = normal.cholesky()?;
-            let change = factor.solve(&score);
+            let normal = factor.insert(normal.factor()?);
+            normal.solve(&mut score);
+            let change = score;
             z.iter_mut().enumerate().for_each(|(s, z)| {
                 *z += Complex::new(change[2 * s], change[2 * s + 1]);
             });
             at += change[width - 1].clamp(-step, step);
-            covariance = factor.inverse();
         }
         let origins = runs.iter().map(|run| run.origin);
         let origin = origins.sum::<f64>() / runs.len().max(1) as f64;
-        let variances = variances(&z, &covariance, origin);
+        let variances = variances(&z, &factor?, origin);
         let at_zero = |(r, run): (usize, &Sampled)| z[of(r)] * Complex::cis(-at * run.origin);
         let z = runs.iter().enumerate().map(at_zero).collect();
         variances.iter().all(|v| v.is_finite()).then_some(Self { at, z, variances })
@@ -107,7 +107,7 @@ fn rows<'a>(
 }
 
 /// Variances of the mean amplitude, the beat and the phase at beat zero.
-fn variances(z: &[Complex<f64>], covariance: &DMatrix<f64>, origin: f64) -> [f64; 3] {
+fn variances(z: &[Complex<f64>], normal: &ArrowFactor, origin: f64) -> [f64; 3] {
     let last = 2 * z.len();
     let (mut amplitude, mut phase) = (DVector::zeros(last + 1), DVector::zeros(last + 1));
     let mut beat = DVector::zeros(last + 1);
@@ -119,7 +119,9 @@ fn variances(z: &[Complex<f64>], covariance: &DMatrix<f64>, origin: f64) -> [f64
         (phase[2 * s], phase[2 * s + 1]) = (turned.re, turned.im);
     }
     phase[last] = -origin;
-    [amplitude, beat, phase].map(|g| (covariance * &g).dot(&g))
+    let of = [amplitude, beat, phase];
+    let [by_amplitude, by_beat, by_phase] = normal.inverse_times(&of);
+    [by_amplitude.dot(&of[0]), by_beat.dot(&of[1]), by_phase.dot(&of[2])]
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use crate::{
     arrays::array::Array,
     common::{
         allowance::Allowance,
-        bounds::check_columns,
+        bounds::{check_columns, check_size},
         damage::Damage,
         error::FormatError,
         guard::guard_deep,
@@ -53,6 +53,8 @@ impl ArrayFile {
             allowance.take(names).map_err(|e| FormatError::too_large(path, e))?;
             columns.extend(own);
             check_columns(path, columns.len())?;
+            let longest = columns.iter().map(|(_, numbers)| numbers.len()).max().unwrap_or(0);
+            check_size(path, longest as u64, columns.len())?;
         }
         Ok(Self { path: path.to_owned(), columns })
     }

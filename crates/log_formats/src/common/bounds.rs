@@ -14,6 +14,34 @@ pub(crate) const MOST_ENTRIES: usize = 10_000;
 /// Longest line of a text, the line of names included (bytes).
 const LONGEST_LINE: u64 = 1 << 24;
 
+/// Most rows and numbers of a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct TableSize {
+    pub rows: u64,
+    pub cells: u64,
+}
+
+/// 28 hours at 1 kHz, and 8 GB of numbers.
+pub(crate) const MOST: TableSize = TableSize { rows: 100_000_000, cells: 1_000_000_000 };
+
+impl TableSize {
+    /// Whether a table of so many rows and columns is within these bounds.
+    pub(crate) fn holds(self, rows: u64, columns: usize) -> bool {
+        rows <= self.rows && rows.saturating_mul(columns as u64) <= self.cells
+    }
+}
+
+/// Refuses a table with more rows or numbers than are read.
+pub(crate) fn check_size(path: &Path, rows: u64, columns: usize) -> Result<(), FormatError> {
+    if MOST.holds(rows, columns) { Ok(()) } else { Err(too_many_rows(path, columns)) }
+}
+
+/// The refusal of a table that has more rows than are read of so many columns.
+pub(crate) fn too_many_rows(path: &Path, columns: usize) -> FormatError {
+    let most = MOST.rows.min(MOST.cells / columns.max(1) as u64);
+    FormatError::TooManyRows { path: path.to_owned(), columns, most }
+}
+
 /// Refuses a table with more columns than are read. `found` may be a part of them.
 pub(crate) fn check_columns(path: &Path, found: usize) -> Result<(), FormatError> {
     match found {
@@ -68,6 +96,18 @@ mod tests {
         let most = MOST_COLUMNS;
         let error = FormatError::TooManyColumns { path: path.to_owned(), most };
         assert_eq!(check_columns(path, MOST_COLUMNS + 1), Err(error));
+    }
+
+    #[test]
+    fn a_table_is_bounded_by_its_rows_and_by_its_numbers() {
+        let path = Path::new("a");
+        assert_eq!(check_size(path, MOST.rows, 10), Ok(()));
+        let refusal =
+            |columns, most| Err(FormatError::TooManyRows { path: path.to_owned(), columns, most });
+        assert_eq!(check_size(path, MOST.rows + 1, 10), refusal(10, MOST.rows));
+        assert_eq!(check_size(path, 100_000, MOST_COLUMNS), Ok(()));
+        assert_eq!(check_size(path, 100_001, MOST_COLUMNS), refusal(MOST_COLUMNS, 100_000));
+        assert_eq!(check_size(path, u64::MAX, usize::MAX), refusal(usize::MAX, 0));
     }
 
     #[test]

@@ -34,6 +34,16 @@ pub enum FormatError {
         /// Most columns that are read.
         most: usize,
     },
+    /// The table has more rows than are read of so many columns.
+    #[error("{}: it has more than {most} rows of {columns} columns, at most {most} were expected", path.display())]
+    TooManyRows {
+        /// The file.
+        path: PathBuf,
+        /// Columns of the table.
+        columns: usize,
+        /// Most rows that are read.
+        most: u64,
+    },
     /// The first bytes of the file show a kind that is not supported.
     #[error("{}: this is {found}; {advice}", path.display())]
     OtherKind {

@@ -1,5 +1,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::common::bounds::{MOST, TableSize};
 use crate::common::excerpt::ExcerptFilter;
 
 /// The columns of a log that become signals.
@@ -80,6 +81,16 @@ pub(crate) struct Rows {
     excerpt: Option<ExcerptFilter>,
     columns: Vec<Column>,
     rows: Vec<usize>,
+    most: TableSize,
+}
+
+/// Why a row is refused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum RowRefusal {
+    /// The needed column of this index has no number in it.
+    NoNumber(usize),
+    /// The table has as many rows as are read.
+    TooMany,
 }
 
 struct Column {
@@ -108,15 +119,15 @@ impl Rows {
             samples: (!name.is_empty()).then(Vec::new),
         };
         let columns = names.iter().map(column).collect();
-        Self { excerpt: needed.excerpt.clone(), columns, rows: Vec::new() }
+        Self { excerpt: needed.excerpt.clone(), columns, rows: Vec::new(), most: MOST }
     }
 
     /// Adds a row of the file, counted from 1, with one cell per column.
     ///
     /// # Errors
     ///
-    /// The index of the first needed column without a number.
-    pub(crate) fn push(&mut self, row: usize, cells: &[TableCell]) -> Result<(), usize> {
+    /// The first needed column without a number, or one row too many.
+    pub(crate) fn push(&mut self, row: usize, cells: &[TableCell]) -> Result<(), RowRefusal> {
         let of = |use_of_it: Use| {
             let all = self.columns.iter().zip(cells);
             all.filter(move |(column, _)| column.use_of_it == use_of_it).map(|(_, cell)| *cell)
@@ -135,7 +146,10 @@ impl Rows {
             column.use_of_it != Use::Further && !matches!(cell, TableCell::Number(_))
         };
         if let Some(index) = self.columns.iter().zip(cells).position(|pair| wrong(&pair)) {
-            return Err(index);
+            return Err(RowRefusal::NoNumber(index));
+        }
+        if !self.most.holds(self.rows.len() as u64 + 1, self.columns.len()) {
+            return Err(RowRefusal::TooMany);
         }
         self.rows.push(row);
         for (column, cell) in self.columns.iter_mut().zip(cells) {
@@ -171,11 +185,36 @@ mod tests {
         rows.push(1, &[n(0.0), n(1.0), n(5.0), TableCell::Text, n(1.0)]).unwrap();
         rows.push(2, &[n(0.1), empty, n(6.0), empty, empty]).unwrap();
         rows.push(3, &[n(0.2), n(2.0), n(7.0), n(1.0), n(1.0)]).unwrap();
-        assert_eq!(rows.push(4, &[empty, n(3.0), n(8.0), n(1.0), n(1.0)]), Err(0));
-        assert_eq!(rows.push(5, &[n(0.4), TableCell::Text, n(8.0), n(1.0), n(1.0)]), Err(1));
+        assert_eq!(
+            rows.push(4, &[empty, n(3.0), n(8.0), n(1.0), n(1.0)]),
+            Err(RowRefusal::NoNumber(0))
+        );
+        assert_eq!(
+            rows.push(5, &[n(0.4), TableCell::Text, n(8.0), n(1.0), n(1.0)]),
+            Err(RowRefusal::NoNumber(1))
+        );
         let table = rows.finish();
         assert_eq!(table.columns["command"], [5.0, 7.0]);
         assert_eq!(table.columns.keys().collect::<Vec<_>>(), ["command", "q", "time"]);
         assert_eq!((table.row(0), table.row(1)), (1, 3));
+    }
+
+    #[test]
+    fn one_row_too_many_is_refused_and_one_that_is_left_out_is_none() {
+        let names = ["time", "q"].map(str::to_owned);
+        let needed = Needed { time: "time", signals: BTreeSet::from(["q"]), excerpt: None };
+        let mut rows = Rows::new(&names, &needed);
+        let row = [TableCell::Number(0.0); 2];
+        for (most, refused_at) in
+            [(TableSize { rows: 2, cells: 100 }, 3), (TableSize { rows: 100, cells: 7 }, 4)]
+        {
+            rows = Rows { most, ..Rows::new(&names, &needed) };
+            for number in 1..refused_at {
+                rows.push(number, &row).unwrap();
+                rows.push(number, &[TableCell::Number(0.0), TableCell::Empty]).unwrap();
+            }
+            assert_eq!(rows.push(refused_at, &row), Err(RowRefusal::TooMany));
+        }
+        assert_eq!(rows.finish().columns["q"].len(), 3);
     }
 }

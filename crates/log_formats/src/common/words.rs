@@ -1,16 +1,30 @@
 //! Parts of messages.
 
+use files::shorten;
+
 /// `; did you mean NAME?`, or nothing without a name.
 pub fn suggestion(nearest: Option<&str>) -> String {
-    // A message stays one line, whatever the names in the file hold.
-    let plain = |name: &str| name.replace(char::is_control, " ");
-    nearest.map(|name| format!("; did you mean {}?", plain(name))).unwrap_or_default()
+    nearest.map(|name| format!("; did you mean {}?", quote(name))).unwrap_or_default()
+}
+
+/// A name from a file: on one line and of a bounded length, whatever it holds.
+pub(crate) fn quote(name: &str) -> String {
+    shorten(&name.replace(char::is_control, " ")).into_owned()
 }
 
 /// Names with commas between them, or `none`.
 pub fn list(names: &[String]) -> String {
-    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+    if names.is_empty() {
+        return "none".to_owned();
+    }
+    let first: Vec<String> = names.iter().take(MOST_LISTED).map(|name| quote(name)).collect();
+    let more = names.len().saturating_sub(MOST_LISTED);
+    let rest = if more == 0 { String::new() } else { format!(" and {more} more") };
+    format!("{}{rest}", first.join(", "))
 }
+
+/// Most names of [`list`].
+const MOST_LISTED: usize = 100;
 
 /// Number of items of [`columns`] that are printed.
 const MOST: usize = 16;
@@ -22,9 +36,9 @@ pub fn columns(names: &[String]) -> String {
     }
     let items = numbered_together(names);
     let more = items.len().saturating_sub(MOST);
-    let first = items[..items.len() - more].join(", ").replace(char::is_control, " ");
+    let first: Vec<String> = items[..items.len() - more].iter().map(|item| quote(item)).collect();
     let rest = if more == 0 { String::new() } else { format!(" and {more} more") };
-    format!("; its columns are {first}{rest}")
+    format!("; its columns are {}{rest}", first.join(", "))
 }
 
 /// Names in their order, three or more that differ by a number that counts up as `q[0] to q[5]`.

@@ -6,10 +6,11 @@ use std::{
 
 use crate::{
     common::{
+        bounds::too_many_rows,
         damage::Damage,
         error::FormatError,
         sha256::sha256_of_files,
-        table::{Needed, Table},
+        table::{Needed, RowRefusal, Table},
     },
     file_format::{FileFormat, Magic, Opened, Request},
     formats::bag::{
@@ -62,11 +63,14 @@ impl Opened for Bag {
 
     /// A message without any of the needed columns is left out.
     fn load(&self, needed: &Needed, _: &mut Damage) -> Result<Table, FormatError> {
-        self.states.load(needed).map_err(|(message, column)| FormatError::NotInMessage {
-            path: self.path.clone(),
-            topic: self.topic.clone(),
-            message,
-            column: self.states.names().get(column).cloned().unwrap_or_default(),
+        self.states.load(needed).map_err(|(message, refusal)| match refusal {
+            RowRefusal::NoNumber(column) => FormatError::NotInMessage {
+                path: self.path.clone(),
+                topic: self.topic.clone(),
+                message,
+                column: self.states.names().get(column).cloned().unwrap_or_default(),
+            },
+            RowRefusal::TooMany => too_many_rows(&self.path, self.states.names().len()),
         })
     }
 

@@ -3,7 +3,7 @@ use std::collections::BTreeMap;
 use crate::{
     common::{
         bounds::MOST_COLUMNS,
-        table::{Needed, Rows, Table, TableCell},
+        table::{Needed, RowRefusal, Rows, Table, TableCell},
     },
     formats::bag::joint_message::JointMessage,
 };
@@ -103,7 +103,7 @@ impl JointStates {
     }
 
     /// Columns by name. Time (s) is counted from the first message, which keeps nanoseconds exact.
-    pub(crate) fn load(&self, needed: &Needed) -> Result<Table, (usize, usize)> {
+    pub(crate) fn load(&self, needed: &Needed) -> Result<Table, (usize, RowRefusal)> {
         let mut rows = Rows::new(&self.names, needed);
         let start_ns = self.messages.first().map_or(0, |(stamp_ns, _)| *stamp_ns);
         let mut cells = vec![TableCell::Empty; self.names.len()];
@@ -114,7 +114,7 @@ impl JointStates {
             for (&column, &value) in self.filled[*layout].iter().zip(&mut values) {
                 cells[column] = TableCell::Number(value);
             }
-            rows.push(index + 1, &cells).map_err(|column| (index + 1, column))?;
+            rows.push(index + 1, &cells).map_err(|refusal| (index + 1, refusal))?;
         }
         Ok(rows.finish())
     }

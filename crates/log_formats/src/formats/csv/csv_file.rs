@@ -6,12 +6,12 @@ use std::{
 
 use crate::{
     common::{
-        bounds::{BoundedLines, check_columns},
+        bounds::{BoundedLines, check_columns, too_many_rows},
         damage::Damage,
         dates::{TIME, date_ns},
         error::FormatError,
         sha256::sha256_of_files,
-        table::{Needed, Rows, Table, TableCell},
+        table::{Needed, RowRefusal, Rows, Table, TableCell},
         unread_kinds::PROSE,
     },
     file_format::{FileFormat, Magic, Opened, Request},
@@ -201,7 +201,10 @@ impl Opened for CsvFile {
             let checked =
                 self.check_length(row, &record).and_then(|()| self.check_listed(row, &record));
             let pushed = checked.and_then(|()| {
-                let refused = |column| self.not_a_number(row, column, &record, &cells);
+                let refused = |refusal| match refusal {
+                    RowRefusal::NoNumber(column) => self.not_a_number(row, column, &record, &cells),
+                    RowRefusal::TooMany => too_many_rows(&self.path, self.names.len()),
+                };
                 rows.push(row, &cells).map_err(refused)
             });
             if let Err(error) = pushed {

@@ -9,6 +9,7 @@ use zip::ZipArchive;
 use crate::{
     common::{
         allowance::Allowance,
+        bounds::check_size,
         damage::Damage,
         error::FormatError,
         guard::guard,
@@ -137,6 +138,9 @@ impl Opened for NumpyFile {
         let Some(&(first, NumpyArray { samples, .. })) = with_time else {
             return Ok(Table::default());
         };
+        let as_long = self.arrays.iter().filter(|(_, array)| array.samples == samples);
+        let width = as_long.map(|(_, array)| array.columns.len()).sum();
+        check_size(path, samples, width)?;
         let mut source = Source::new(path, &self.file, first)?;
         let mut allowance = allowance(path, &self.file)?;
         let mut table = Table::default();

@@ -59,9 +59,10 @@ impl GrowingColumns {
         Ok(())
     }
 
-    /// Ends a batch; `rows` is the number of its rows that were read.
-    pub(crate) fn end_batch(&mut self, rows: usize) {
+    /// Ends a batch, `rows` of whose rows were read, and gives the number of samples so far.
+    pub(crate) fn end_batch(&mut self, rows: usize) -> usize {
         self.samples += rows;
+        self.samples
     }
 
     /// The table. A column is too short where lists further down have another length; this is an error. Where time is

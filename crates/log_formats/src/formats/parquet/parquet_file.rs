@@ -16,7 +16,7 @@ use parquet::arrow::{
 use crate::{
     common::{
         allowance::Allowance,
-        bounds::check_columns,
+        bounds::{check_columns, check_size},
         damage::Damage,
         error::FormatError,
         excerpt::ExcerptFilter,
@@ -201,7 +201,8 @@ impl ParquetFile {
                     columns.add(path, &name, &array, needed)?;
                 }
             }
-            columns.end_batch(batch.num_rows());
+            let samples = columns.end_batch(batch.num_rows());
+            check_size(path, samples as u64, batch.num_columns())?;
         }
         columns.finish(path, needed)
     }
