@@ -212,7 +212,7 @@ fn the_schema_of_answers_has_every_key_that_is_read_and_no_other() {
 #[test]
 fn the_page_of_the_book_is_the_one_of_the_program() {
     let root = workspace_root();
-    let folder = fs::read_dir(root.join("docs/lab/cause_bench")).unwrap();
+    let folder = fs::read_dir(root.join("docs/cause_bench")).unwrap();
     let mut files: Vec<PathBuf> = folder.map(|entry| entry.unwrap().path()).collect();
     files.sort();
     let files: Vec<&str> = files.iter().map(|file| file.to_str().unwrap()).collect();

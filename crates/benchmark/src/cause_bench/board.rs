@@ -142,7 +142,7 @@ impl BenchBoard {
                 |one: &&BenchScores| task.of(one).is_some_and(|x| task.best.prefers(x, own_number));
             let told = |one: &BenchScores| {
                 let words = one.rows.first().map(task.words).unwrap_or_default();
-                format!("{} {words}", shown(&one.entrant))
+                format!("{} {words}", cell_name(&one.entrant))
             };
             let all: Vec<String> = self.entrants.iter().filter(better).map(told).collect();
             let own = own.rows.first().map(task.words)?;
@@ -156,7 +156,7 @@ impl BenchBoard {
     fn cost(&self) -> String {
         let row = |one: &BenchScores| {
             let cost = one.rows.first().map_or_else(Middle::default, |row| row.cost_s);
-            format!("| {} | {} | {} |\n", shown(&one.entrant), cost.words(), cost.of)
+            format!("| {} | {} | {} |\n", cell_name(&one.entrant), cost.words(), cost.of)
         };
         let rows: String = self.entrants.iter().map(row).collect();
         format!(
@@ -182,12 +182,12 @@ impl BenchBoard {
     }
 
     fn header(&self, first: &str) -> String {
-        let names: Vec<String> = self.entrants.iter().map(|one| shown(&one.entrant)).collect();
+        let names: Vec<String> = self.entrants.iter().map(|one| cell_name(&one.entrant)).collect();
         format!("| {first} | {} |\n|---|{}\n", names.join(" | "), "---|".repeat(names.len()))
     }
 }
 
 /// The name of an entrant in a cell.
-fn shown(name: &str) -> String {
+fn cell_name(name: &str) -> String {
     name.replace('_', " ").replace('|', "/")
 }

@@ -18,7 +18,7 @@ use crate::panel::population_trial::nominal;
 use crate::statistics::median::median;
 use crate::trial_folder::{HELD_OUT, LOGS, NOMINAL, log_files, unusable};
 
-/// Time of every exported file: 1 January 2020, after the start of Unix time (s).
+/// Time of every exported file (s of Unix time): the start of the year 2020 in UTC.
 const FILE_TIME_S: u64 = 1_577_836_800;
 
 /// Channels of a held-out log. What a controller is told would tell its efforts, by its gains.

@@ -58,7 +58,7 @@ impl SpokenAnswer {
             FileError::Missing => whole("no file".to_owned()),
             error => whole(error.to_string()),
         })?;
-        let unread = |error: serde_json::Error| whole(shown(&error.to_string()));
+        let unread = |error: serde_json::Error| whole(excerpt(&error.to_string()));
         // A list would be read as the fields of an answer in their order.
         let object: Map<String, Value> = serde_json::from_str(&text).map_err(unread)?;
         let answer: TrialAnswer = serde_json::from_value(object.into()).map_err(unread)?;
@@ -86,7 +86,7 @@ impl Check<'_> {
         for (k, named) in answer.names.iter().enumerate() {
             let finding = self.finding(&format!("names[{k}]"), named, k)?;
             if !seen.insert(finding.at.words()) {
-                let words = shown(&finding.at.words());
+                let words = excerpt(&finding.at.words());
                 return Err(self.fault(&format!("names[{k}]"), words, "each cause once"));
             }
             findings.push(finding);
@@ -253,11 +253,11 @@ fn diagnosis(verdict: Verdict, findings: Vec<Finding>) -> Diagnosis {
 }
 
 fn quote(text: &str) -> String {
-    format!("{:?}", shown(text))
+    format!("{:?}", excerpt(text))
 }
 
 /// The start of a text, as much as a message repeats.
-fn shown(text: &str) -> String {
+fn excerpt(text: &str) -> String {
     match text.char_indices().nth(MOST_SHOWN) {
         Some((end, _)) => format!("{}...", &text[..end]),
         None => text.to_owned(),
