@@ -4,11 +4,11 @@
     pip install numpy scikit-learn
     tests/benches/entrants/learned.py SET ANSWERS gp|nn
 
-Settings, one model a joint, inputs and output scaled to mean 0 and deviation 1, all motions low-passed alike:
+Settings, one model a joint, inputs and output scaled to mean 0 and deviation 1:
 
-- gp: squared exponential with a length an input, and white noise; 250 rows spread evenly, hyperparameters by the
+- gp: squared exponential with a length an input, and white noise; 150 rows spread evenly, hyperparameters by the
   likelihood from one start, as the documentation of scikit-learn has them;
-- nn: two layers of 64 units with tanh, L-BFGS, alpha 1e-3, at most 200 iterations, 2000 rows spread evenly.
+- nn: two layers of 64 units with tanh, L-BFGS, alpha 1e-3, at most 200 iterations, 1000 rows spread evenly.
 """
 
 import sys
@@ -26,9 +26,9 @@ except ImportError as lack:
 
 import warnings
 
-from bench_set import CUTOFF_HZ, answer_all
+from bench_set import answer_all
 
-ROWS = {"gp": 250, "nn": 2000}
+ROWS = {"gp": 150, "nn": 1000}
 SEED = 1
 
 
@@ -47,7 +47,7 @@ def inputs(log):
 
 def answer(trial):
     kind = sys.argv[3]
-    logs, held_out = trial.logs(), trial.held_out(CUTOFF_HZ)
+    logs, held_out = trial.logs(), trial.held_out()
     x, tau = np.vstack([inputs(log) for log in logs]), np.vstack([log.tau for log in logs])
     rows = np.linspace(0, len(x) - 1, min(len(x), ROWS[kind])).astype(int)
     predicted = np.empty_like(held_out.q)
