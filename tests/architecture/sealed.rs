@@ -8,9 +8,10 @@ use crate::tree::{rust_files, text};
 const SEALED: &str = "truth.json";
 
 /// Sources that may name it: folders, and files of the program.
-const KEEPERS: [&str; 5] = [
+const KEEPERS: [&str; 6] = [
     "crates/simulator/",
     "crates/experiment/src/scoring/blinded.rs",
+    "crates/bench_cli/src/commands/export.rs",
     "crates/benchmark/src/trials/",
     "crates/cli/src/help_texts.rs",
     "crates/cli/src/commands/simulate.rs",

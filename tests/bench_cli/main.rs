@@ -9,6 +9,7 @@ mod alarm;
 mod arm;
 mod campaign;
 mod campaigns;
+mod cause_bench;
 mod compare;
 #[cfg(target_os = "linux")]
 #[path = "../cli/disk.rs"]

@@ -5,6 +5,7 @@ mod account;
 mod alarms;
 mod baselines;
 mod campaign;
+mod cause_bench;
 mod made_up;
 mod paired;
 mod panel;

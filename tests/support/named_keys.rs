@@ -44,6 +44,7 @@ const DIAGNOSIS: &str = r#"{"schema": "plumbline.diagnosis/1", "joints": [{"name
 pub const KEYS: &[(&str, &str, &str, Use)] = &[
     ("bench_cli/src/commands/account.rs", "Arguments", "folder", Use::Folder),
     ("bench_cli/src/commands/account.rs", "Arguments", "store", Use::Folder),
+    ("bench_cli/src/commands/board.rs", "Arguments", "scores", Use::Bench("", &["board", "X"])),
     ("bench_cli/src/commands/compare.rs", "Arguments", "first", Use::Folder),
     ("bench_cli/src/commands/compare.rs", "Arguments", "second", Use::Folder),
     (
@@ -53,6 +54,8 @@ pub const KEYS: &[(&str, &str, &str, Use)] = &[
         Use::Bench("", &["damage", "X", "--out", "out"]),
     ),
     ("bench_cli/src/commands/damage.rs", "Arguments", "out", Use::Folder),
+    ("bench_cli/src/commands/export.rs", "Arguments", "out", Use::Folder),
+    ("bench_cli/src/commands/export.rs", "Arguments", "truth", Use::Folder),
     (
         "bench_cli/src/commands/figure/arguments.rs",
         "Arguments",
@@ -68,6 +71,10 @@ pub const KEYS: &[(&str, &str, &str, Use)] = &[
     ),
     ("bench_cli/src/commands/plan.rs", "Arguments", "out", Use::Folder),
     ("bench_cli/src/commands/plan.rs", "Arguments", "made", Use::Folder),
+    ("bench_cli/src/commands/score.rs", "Arguments", "answers", Use::Folder),
+    ("bench_cli/src/commands/score.rs", "Arguments", "folder", Use::Folder),
+    ("bench_cli/src/commands/score.rs", "Arguments", "replay", Use::Own),
+    ("bench_cli/src/commands/score.rs", "Arguments", "truth", Use::Own),
     ("bench_cli/src/commands/sheets.rs", "Arguments", "store", Use::Folder),
     ("bench_cli/src/commands/submit/submission.rs", "Arguments", "folder", Use::Folder),
     (

@@ -3,7 +3,9 @@ use clap::{Parser, Subcommand};
 use crate::commands::missing::Folder;
 use crate::commands::submit::submission;
 use crate::commands::times::measure;
-use crate::commands::{account, compare, damage, figure, plan, schema, sheets, work};
+use crate::commands::{
+    account, board, compare, damage, export, figure, plan, schema, score, sheets, work,
+};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -85,6 +87,12 @@ pub enum BenchCommand {
     /// Spoils the logs of a few trials more and more, kind by kind, and says what the answers become: a new name
     /// with nothing left open is the fault, and ends with code 1
     Damage(damage::Arguments),
+    /// Writes a set of CauseBench: trials for any method, without their truth
+    Export(export::Arguments),
+    /// Scores the answers of any method to a set of CauseBench
+    Score(score::Arguments),
+    /// Prints the page of the book on CauseBench, with the scores of several entrants
+    Board(board::Arguments),
     /// Works out anew what could be seen in the trials of a store; their logs stay
     Sheets(sheets::Arguments),
     /// Draws a figure of the paper and says of every claim about it whether it holds
@@ -92,6 +100,6 @@ pub enum BenchCommand {
     Figure(figure::arguments::Arguments),
     /// Times one prediction of every model against the number of training points
     Times(measure::Arguments),
-    /// Prints the JSON schema of campaigns or of figures
+    /// Prints the JSON schema of campaigns, figures, or the files of CauseBench
     Schema(schema::Arguments),
 }

@@ -36,6 +36,7 @@ impl BenchError {
                 | BenchmarkError::NoStore { .. }
                 | BenchmarkError::NoTruthSheets { .. }
                 | BenchmarkError::NoPopulation { .. }
+                | BenchmarkError::UnusableBenchFile { .. }
                 | BenchmarkError::TrialFolder { .. }
                 | BenchmarkError::Population(_) => 2,
                 _ => 3,

@@ -15,7 +15,9 @@ use crate::arguments::{Arguments, BenchCommand};
 use crate::commands::figure::draw;
 use crate::commands::submit::submission;
 use crate::commands::times::measure;
-use crate::commands::{account, compare, damage, merge, plan, schema, sheets, status, work};
+use crate::commands::{
+    account, board, compare, damage, export, merge, plan, schema, score, sheets, status, work,
+};
 use crate::error::BenchError;
 use crate::exit_status::BenchExitStatus;
 
@@ -47,6 +49,9 @@ fn run(arguments: &Arguments) -> Result<BenchExitStatus, BenchError> {
         BenchCommand::Account(arguments) => account::run(arguments),
         BenchCommand::Compare(arguments) => compare::run(arguments),
         BenchCommand::Damage(arguments) => damage::run(arguments),
+        BenchCommand::Export(arguments) => export::run(arguments),
+        BenchCommand::Score(arguments) => score::run(arguments),
+        BenchCommand::Board(arguments) => board::run(arguments),
         BenchCommand::Sheets(arguments) => sheets::run(arguments),
         BenchCommand::Figure(arguments) => draw::run(arguments),
         BenchCommand::Times(arguments) => measure::run(arguments),

@@ -2,6 +2,7 @@ use std::path::PathBuf;
 
 use diagnosis::DiagnosisError;
 use document::DocumentError;
+use exchange::ExchangeError;
 use experiment::ExperimentError;
 use learner::LearnerError;
 use logs::LogError;
@@ -102,6 +103,19 @@ pub enum BenchmarkError {
         /// The folder of the campaign.
         path: PathBuf,
     },
+    /// A file of CauseBench cannot be used.
+    #[error("{}: {found} was found, {expected} was expected", path.display())]
+    UnusableBenchFile {
+        /// The file.
+        path: PathBuf,
+        /// What was found.
+        found: String,
+        /// What was expected.
+        expected: &'static str,
+    },
+    /// A described arm cannot be written for other programs.
+    #[error(transparent)]
+    Exchange(#[from] ExchangeError),
     /// The threads of a worker cannot be started.
     #[error("the threads of a worker cannot be started: {reason}")]
     NoThreads {

@@ -14,12 +14,14 @@
 //! - `tables` adds trials up, `paired` compares two results of the same trials;
 //! - `alarms` is what was said of clean logs, corner by corner;
 //! - `damage` spoils the logs of a trial more and more;
+//! - `cause_bench` hands out trials without their truth, and scores the answers of any method;
 //! - `baselines` is plain least squares, `statistics` shares and rates with their intervals;
 //! - `paper` measures the figures of Nguyen-Tuong & Peters 2010, `reports` shows all of it.
 
 mod account;
 mod alarms;
 mod baselines;
+mod cause_bench;
 mod damage;
 mod error;
 mod paired;
@@ -43,6 +45,18 @@ pub use alarms::alarm_row::AlarmRow;
 pub use alarms::false_name::FalseName;
 pub use baselines::baseline::Baseline;
 pub use baselines::least_squares::least_squares;
+pub use cause_bench::answer::{NamedCause, NamedPlace, NamedSize, TrialAnswer};
+pub use cause_bench::answer_fault::AnswerFault;
+pub use cause_bench::bench_set::BenchSet;
+pub use cause_bench::bench_truth::{BenchTruth, TrialTruth};
+pub use cause_bench::board::BenchBoard;
+pub use cause_bench::export::{ExportRequest, export_set};
+pub use cause_bench::manifest::{BenchLog, BenchManifest, BenchTrial, MANIFEST_SCHEMA};
+pub use cause_bench::name_match::NameMatch;
+pub use cause_bench::replay_drift::{REPLAY_TIMES_MS, ReplayDrift};
+pub use cause_bench::score_row::ScoreRow;
+pub use cause_bench::scores::{BenchScores, SCORES_SCHEMA};
+pub use cause_bench::spoken::SpokenAnswer;
 pub use damage::curves::{
     DAMAGE_SCHEMA, DAMAGE_SIZES, DamageCurves, DamagePoint, DamageTrial, damage_kinds,
 };
@@ -76,6 +90,7 @@ pub use reports::paper::prediction_time_figure::{
 };
 pub use reports::times::prediction_times::{Maker, PredictionTimes, TimeCurve, TimePoint};
 pub use reports::trials::panel_page::panel_page;
+pub use statistics::middle::Middle;
 pub use statistics::rate::{Fraction, Rate};
 pub use statistics::share::Share;
 pub use statistics::text_table::TextTable;

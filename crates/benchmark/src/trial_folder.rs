@@ -20,7 +20,7 @@ pub(crate) fn read_runs(folder: &Path, robot: &Robot) -> Result<Vec<Run>, Benchm
 }
 
 /// The logs of a folder, in the order of their names.
-fn log_files(folder: &Path) -> Result<Vec<PathBuf>, BenchmarkError> {
+pub(crate) fn log_files(folder: &Path) -> Result<Vec<PathBuf>, BenchmarkError> {
     let entries = std::fs::read_dir(folder).map_err(unusable(folder))?.map(|e| e.map(|e| e.path()));
     let mut paths = entries.collect::<Result<Vec<_>, _>>().map_err(unusable(folder))?;
     paths.retain(|path| path.extension().is_some_and(|e| e == LogFormat::Parquet.extension()));

@@ -9,7 +9,7 @@
 //! `.desired_velocity`, `.desired_acceleration`, `.commanded_effort` and, from a second
 //! encoder, `.link_position` (SI units, radians). Only `time`, `position` and `effort` are
 //! required. Columns are found by name, in any order; a [`ColumnMap`] reads files that
-//! use other names or units. [`write_csv`] and [`write_parquet`] write a whole log; a [`LogWriter`] writes one while it
+//! use other names or units. [`write_csv`] and [`write_parquet`] write a whole log, [`write_npz`] any columns; a [`LogWriter`] writes one while it
 //! is recorded.
 //!
 //! [`prepare`] applies the same zero-phase [`LowPass`] to `q`, `qd` and `qdd`. It does not filter
@@ -49,6 +49,9 @@ pub use signals::prepare::{PrepareSettings, prepare};
 pub use signals::prepared::{Prepared, PreparedJoint, PreparedLink, PreparedRun, Wide};
 pub use signals::rest::rest_speeds;
 pub use signals::warning::LogWarning;
+pub use writing::npz::write_npz;
 pub use writing::whole_file::{WholeFile, sync_folder};
-pub use writing::write::{replace_file, table_bytes, write_csv, write_parquet, write_table};
+pub use writing::write::{
+    replace_file, table_bytes, write_columns, write_csv, write_parquet, write_table,
+};
 pub use writing::writer::LogWriter;

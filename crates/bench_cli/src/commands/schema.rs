@@ -1,6 +1,6 @@
-use benchmark::{CampaignSpec, FigureScenario, PopulationCampaign};
+use benchmark::{BenchManifest, CampaignSpec, FigureScenario, PopulationCampaign, TrialAnswer};
 use clap::ValueEnum;
-use cli::print_schema;
+use cli::{print_json, print_schema};
 use schemars::{Schema, schema_for};
 use serde_json::{Value, json};
 
@@ -22,14 +22,20 @@ enum Kind {
     Campaign,
     /// A figure of the paper
     Figure,
+    /// The answer to a trial of CauseBench
+    Answers,
+    /// The manifest of a set of CauseBench
+    Manifest,
 }
 
-/// Prints the JSON schema of campaigns or of figures, which editors complete and check keys with.
+/// Prints the JSON schema of a kind of file, which editors complete and check keys with.
 pub fn run(arguments: &Arguments) -> Result<BenchExitStatus, BenchError> {
-    print_schema(match arguments.kind {
-        Kind::Campaign => campaigns(),
-        Kind::Figure => schema_for!(FigureScenario),
-    })?;
+    match arguments.kind {
+        Kind::Campaign => print_schema(campaigns())?,
+        Kind::Figure => print_schema(schema_for!(FigureScenario))?,
+        Kind::Answers => print_json(&schema_for!(TrialAnswer))?,
+        Kind::Manifest => print_json(&schema_for!(BenchManifest))?,
+    }
     Ok(BenchExitStatus::Good)
 }
 

@@ -225,6 +225,11 @@ impl Judgement {
         matches!(self.verdict, Verdict::Unexplained | Verdict::PartlyExplained)
     }
 
+    /// Whether it says that something is left, in refusing the logs too, and names nothing false.
+    pub(crate) fn abstains(&self) -> bool {
+        (self.is_open() || self.refused.is_some()) && !self.names_falsely()
+    }
+
     /// Whether a finding is false, where all causes are known.
     pub fn names_falsely(&self) -> bool {
         self.is_all_known() && self.findings.iter().any(|finding| !finding.is_true)
@@ -250,7 +255,7 @@ impl Judgement {
         self.findings.iter().filter(|_| !self.is_spoilt())
     }
 
-    fn hides_strangers(&self) -> bool {
+    pub(crate) fn hides_strangers(&self) -> bool {
         self.strangers.iter().any(|stranger| stranger.strength.visible())
     }
 

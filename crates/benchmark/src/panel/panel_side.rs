@@ -41,7 +41,8 @@ impl PanelSide {
         self.thing
     }
 
-    fn of(judgement: &Judgement) -> Vec<Self> {
+    /// The sides that a judgement is in.
+    pub(crate) fn of(judgement: &Judgement) -> Vec<Self> {
         let corner = &judgement.corner;
         let causes = bucket(judgement.visible().count(), &["0", "1", "2-3", "4-7", "8+"], CAUSES);
         let logs = bucket(corner.logs, &["1", "2-3", "4+"], LOGS);

@@ -1,4 +1,4 @@
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::statistics::share::wilson;
 
@@ -24,7 +24,7 @@ pub struct Fraction {
 /// Items of one trial are dependent, so that a trial counts as one draw. `V` is the variance of the ratio over trials
 /// (Liang & Zeger 1986). The 95 per cent interval is the score interval (Wilson 1927) for `n` independent items,
 /// where `n` gives the same variance (Korn & Graubard 1998).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Rate {
     /// The rate; `None` without items.
     pub value: Option<f64>,

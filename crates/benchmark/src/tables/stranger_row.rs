@@ -47,9 +47,7 @@ impl StrangerRow {
         Self {
             name: name.to_owned(),
             trials: trials.len(),
-            open: Share::of(&visible, |one| {
-                (one.is_open() || one.refused.is_some()) && !one.names_falsely()
-            }),
+            open: Share::of(&visible, |one| one.abstains()),
             assured: Share::of(&visible, |one| assured(one)),
             misnamed: Share::of(&visible, |one| one.names_falsely()),
         }

@@ -85,8 +85,20 @@ fn encode(
 ///
 /// [`LogError::Unwritable`].
 pub fn write_parquet(path: &Path, run: &Run) -> Result<(), LogError> {
-    let array = |x: &[f64]| Arc::new(Float64Array::from(x.to_vec())) as ArrayRef;
-    let columns = columns(run).into_iter().map(|(name, x)| (name, array(x)));
+    write_columns(path, &columns(run))
+}
+
+/// Writes columns of equal length as Parquet, one `f64` column each.
+///
+/// # Errors
+///
+/// [`LogError::Unwritable`].
+pub fn write_columns<C: AsRef<[f64]>>(
+    path: &Path,
+    columns: &[(String, C)],
+) -> Result<(), LogError> {
+    let array = |x: &C| Arc::new(Float64Array::from(x.as_ref().to_vec())) as ArrayRef;
+    let columns = columns.iter().map(|(name, x)| (name.clone(), array(x)));
     write_table(path, columns.collect(), Vec::new())
 }
 

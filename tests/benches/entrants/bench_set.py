@@ -1,0 +1,108 @@
+"""A set of CauseBench for the entrants beside this file: trials read, signals differentiated, answers written.
+
+Nothing of Plumbline is used: NumPy alone, and MuJoCo for the torque of an MJCF.
+"""
+
+import json
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+CUTOFF_HZ = 10.0  # Of the motion that is differentiated, and of every signal that is compared with it.
+
+
+def low_pass(x, step, cutoff_hz=CUTOFF_HZ):
+    """Gaussian low-pass without phase: `exp(-(f / cutoff)^2 / 2)` on the signal and its mirror image."""
+    turned = np.concatenate([x, x[::-1]])
+    frequency = np.fft.rfftfreq(len(turned), step)
+    kept = np.exp(-0.5 * (frequency / cutoff_hz) ** 2)
+    return np.fft.irfft(np.fft.rfft(turned, axis=0) * kept[:, None], len(turned), axis=0)[: len(x)]
+
+
+class Log:
+    """Signals of a log at even times: `q`, `qd`, `qdd`, `tau`, each [row, joint] (rad or m, per s, N m or N)."""
+
+    def __init__(self, path, joints, cutoff_hz=CUTOFF_HZ):
+        with np.load(path) as columns:
+            self.rows = columns["time"]
+            step = np.median(np.diff(self.rows))
+            self.time = np.arange(self.rows[0], self.rows[-1], step)
+            self.step = step
+            at = lambda name: np.interp(self.time, self.rows, columns[name])
+            position = np.stack([at(f"{joint}.position") for joint in joints], axis=1)
+            has_effort = f"{joints[0]}.effort" in columns
+            self.raw = np.stack([at(f"{joint}.effort") for joint in joints], axis=1) if has_effort else None
+        self.q = low_pass(position, step, cutoff_hz)
+        self.qd = np.gradient(self.q, step, axis=0)
+        self.qdd = np.gradient(self.qd, step, axis=0)
+        self.tau = None if self.raw is None else low_pass(self.raw, step, cutoff_hz)
+
+
+class Trial:
+    """A trial of the set: its logs, and the answer to it."""
+
+    def __init__(self, folder, answers, entry):
+        self.folder, self.answers, self.name = folder, answers, entry["name"]
+        self.joints, self.links, self.source = entry["joints"], entry["links"], entry["effort_source"]
+        self.urdf, self.mjcf, self.description = (folder / entry[k] for k in ("urdf", "mjcf", "description"))
+        self.log_files = [folder / log["npz"] for log in entry["logs"]]
+        self.held_out_file = folder / entry["held_out"]["npz"]
+
+    def logs(self):
+        return [Log(path, self.joints) for path in self.log_files]
+
+    def held_out(self, cutoff_hz=50.0):
+        """The held-out log: without noise, so that its motion is differentiated up to 50 Hz."""
+        return Log(self.held_out_file, self.joints, cutoff_hz)
+
+    def predict(self, log, tau):
+        """Writes efforts [row, joint] at `log.time` as the prediction; returns its file."""
+        columns = {"time": log.rows}
+        for j, joint in enumerate(self.joints):
+            columns[f"{joint}.effort"] = np.interp(log.rows, log.time, tau[:, j])
+        name = f"{self.name}.prediction.npz"
+        np.savez(self.answers / name, **columns)
+        return name
+
+    def hand_in(self, text):
+        """Writes an MJCF as the model of the answer; returns its file."""
+        name = f"{self.name}.model.xml"
+        (self.answers / name).write_text(text)
+        return name
+
+
+def answer_all(answer):
+    """Answers every trial of the set that the command line names; a trial that fails has no answer, and says why."""
+    folder, answers = map(Path, sys.argv[1:3])
+    answers.mkdir(parents=True, exist_ok=True)
+    for entry in json.loads((folder / "manifest.json").read_text())["trials"]:
+        trial, begin = Trial(folder, answers, entry), time.process_time()
+        try:
+            said = answer(trial)
+        except Exception as error:  # Whatever stops a method at a trial: the others are still answered.
+            print(f"{trial.name}: {type(error).__name__}: {error}", flush=True)
+            continue
+        said.setdefault("seconds", time.process_time() - begin)
+        (answers / f"{trial.name}.json").write_text(json.dumps(said))
+
+
+def mjcf_torque(model, joints, log):
+    """Efforts [row, joint] (N m or N) along a motion by an MJCF:
+
+    tau = inverse dynamics of the bodies with armature + damping qd + frictionloss sign(qd)
+    """
+    import mujoco
+
+    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
+    data = mujoco.MjData(model)
+    ids = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, joint) for joint in joints]
+    at, dof = model.jnt_qposadr[ids], model.jnt_dofadr[ids]
+    tau = np.empty_like(log.q)
+    for k in range(len(log.q)):
+        data.qpos[at], data.qvel[dof], data.qacc[dof] = log.q[k], log.qd[k], log.qdd[k]
+        mujoco.mj_inverse(model, data)
+        tau[k] = data.qfrc_inverse[dof]
+    # Dry friction is a constraint of MuJoCo, which is switched off above: here it acts in full.
+    return tau + model.dof_frictionloss[dof] * np.tanh(log.qd / 1e-3)
