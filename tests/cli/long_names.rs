@@ -33,21 +33,11 @@ fn parquet_log(path: &Path, name: &str) {
     writer.close().unwrap();
 }
 
-/// Files with the name where they go wrong, and the commands that say so.
-fn refused(folder: &Path, name: &str) -> Vec<(String, Vec<String>)> {
+/// Robots with the name where it goes wrong.
+fn robots(name: &str) -> Vec<(&'static str, String)> {
     let digits = "9".repeat(300);
-    let log = arm::log(0, Gap::None);
-    let row = |from: &str, to: &str| log.replacen(from, to, 1);
-    let logs = [
-        ("absent.csv", row("elbow.position", name)),
-        ("twice.csv", row("time,", &format!("time,{name},{name},"))),
-        ("other.csv", row("elbow.", &format!("{name}."))),
-        ("text.csv", row("\n0.005,", &format!("\n0.005{name},"))),
-        ("clock.csv", row("\n0.005,", "\n1e300,")),
-        ("size.csv", row("\n0.005,", &format!("\n0.005,{digits}"))),
-    ];
     let joint = |to: &str| arm::URDF.replace("\"elbow\"", to);
-    let robots = [
+    vec![
         ("joint.urdf", joint(&format!("\"{name}\"")).replace("revolute", "planar")),
         (
             "link.urdf",
@@ -74,7 +64,23 @@ fn refused(folder: &Path, name: &str) -> Vec<(String, Vec<String>)> {
                 "<mujoco><worldbody><body name=\"{name}\"><joint name=\"{name}\" type=\"{name}\"/></body></worldbody></mujoco>"
             ),
         ),
+    ]
+}
+
+/// Files with the name where they go wrong, and the commands that say so.
+fn refused(folder: &Path, name: &str) -> Vec<(String, Vec<String>)> {
+    let digits = "9".repeat(300);
+    let log = arm::log(0, Gap::None);
+    let row = |from: &str, to: &str| log.replacen(from, to, 1);
+    let logs = [
+        ("absent.csv", row("elbow.position", name)),
+        ("twice.csv", row("time,", &format!("time,{name},{name},"))),
+        ("other.csv", row("elbow.", &format!("{name}."))),
+        ("text.csv", row("\n0.005,", &format!("\n0.005{name},"))),
+        ("clock.csv", row("\n0.005,", "\n1e300,")),
+        ("size.csv", row("\n0.005,", &format!("\n0.005,{digits}"))),
     ];
+    let robots = robots(name);
     let maps = [
         (
             "joint.map",
