@@ -36,20 +36,14 @@ pub(crate) fn another_robot(judge: &Judge, runs: usize) -> Option<Observation> {
         return None;
     }
     let joint = against(&with).into_iter().max_by(|a, b| with[*a].total_cmp(&with[*b]))?;
+    let (joints, runs) = ((0..n).collect(), (0..runs).collect());
     Some(Observation {
-        kind: ObservationKind::AnotherRobot,
-        or: Vec::new(),
-        units: Vec::new(),
-        zeros: Vec::new(),
-        joints: (0..n).collect(),
-        runs: (0..runs).collect(),
-        stretches: Vec::new(),
-        spoils: Spoils::Everything,
         evidence: Some(ReadingEvidence {
             joint,
             before: with[joint],
             after: without[joint],
             gain: judge.gain(&with, &without),
         }),
+        ..Observation::of_runs(ObservationKind::AnotherRobot, joints, runs, Spoils::Everything)
     })
 }

@@ -36,15 +36,8 @@ pub(crate) fn clock(robot: &Robot, judge: &mut Judge, runs: usize) -> Vec<Observ
     let t = judge.thresholds;
     let slopes = slopes(&judge.samples, t);
     let observation = |kind, joints, spoils, or| Observation {
-        kind,
         or,
-        units: Vec::new(),
-        zeros: Vec::new(),
-        joints,
-        runs: (0..runs).collect(),
-        stretches: Vec::new(),
-        spoils,
-        evidence: None,
+        ..Observation::of_runs(kind, joints, (0..runs).collect(), spoils)
     };
     let mut all = Vec::new();
     let turned: Vec<usize> = slopes.iter().filter(|s| s.factor < 0.0).map(|s| s.joint).collect();

@@ -33,20 +33,15 @@ pub(crate) fn effort_shift(
     let (found, later, shares) = best.filter(|b| b.0 > t.gain[0].max(gain - t.margin))?;
     let of = |j: &usize| as_is.shares[*j] / (shares[*j] + judge.floors[*j]);
     let joint = (0..shares.len()).max_by(|a, b| of(a).total_cmp(&of(b)))?;
+    let kind = ObservationKind::EffortShifted { shift_s: later as f64 * step_s };
+    let (joints, runs) = ((0..shares.len()).collect(), (0..runs).collect());
     Some(Observation {
-        kind: ObservationKind::EffortShifted { shift_s: later as f64 * step_s },
-        or: Vec::new(),
-        units: Vec::new(),
-        zeros: Vec::new(),
-        joints: (0..shares.len()).collect(),
-        runs: (0..runs).collect(),
-        stretches: Vec::new(),
-        spoils: Spoils::Nothing,
         evidence: Some(ReadingEvidence {
             joint,
             before: as_is.shares[joint],
             after: shares[joint],
             gain: found,
         }),
+        ..Observation::of_runs(kind, joints, runs, Spoils::Nothing)
     })
 }

@@ -71,17 +71,9 @@ pub fn inspect_with(
 /// Inertias in another unit, where the description has some: no torque of such a model says anything of logs.
 fn wide_inertias(robot: &Robot, runs: usize) -> Option<Observation> {
     let is_wide = !robot.wide_inertias().is_empty();
-    is_wide.then(|| Observation {
-        kind: ObservationKind::InertiaUnit,
-        or: Vec::new(),
-        joints: (0..robot.joint_count()).collect(),
-        units: Vec::new(),
-        zeros: Vec::new(),
-        runs: (0..runs).collect(),
-        stretches: Vec::new(),
-        spoils: Spoils::Everything,
-        evidence: None,
-    })
+    let joints = (0..robot.joint_count()).collect();
+    let kind = ObservationKind::InertiaUnit;
+    is_wide.then(|| Observation::of_runs(kind, joints, (0..runs).collect(), Spoils::Everything))
 }
 
 fn is_whole(robot: &Robot, run: &Run) -> bool {

@@ -27,17 +27,9 @@ pub(crate) fn at_limits(robot: &Robot, runs: &[Run], t: &InspectionThresholds) -
         let is_clipped = share >= t.at_limit
             && both
             && count_values(all().copied(), t.fewest_values) >= t.fewest_values;
-        is_clipped.then(|| Observation {
-            kind: ObservationKind::AtLimit { share, limit },
-            or: Vec::new(),
-            units: Vec::new(),
-            zeros: Vec::new(),
-            joints: vec![j],
-            runs: (0..runs.len()).collect(),
-            stretches: Vec::new(),
-            spoils: Spoils::Joints,
-            evidence: None,
-        })
+        let kind = ObservationKind::AtLimit { share, limit };
+        let all = (0..runs.len()).collect();
+        is_clipped.then(|| Observation::of_runs(kind, vec![j], all, Spoils::Joints))
     };
     (0..robot.joint_count()).filter_map(joint).collect()
 }

@@ -58,15 +58,8 @@ impl Observation {
     fn unknown_unit(&self) -> Option<Self> {
         let unknown = self.units.iter().filter(|unit| unit.factor.is_none());
         let joints: Vec<usize> = unknown.map(|unit| unit.joint).collect();
-        (!joints.is_empty()).then(|| Self {
-            kind: ObservationKind::UnknownUnit,
-            or: Vec::new(),
-            joints,
-            units: Vec::new(),
-            zeros: Vec::new(),
-            spoils: Spoils::Nothing,
-            evidence: None,
-            ..self.clone()
+        (!joints.is_empty()).then(|| {
+            Self::of_runs(ObservationKind::UnknownUnit, joints, self.runs.clone(), Spoils::Nothing)
         })
     }
 

@@ -27,6 +27,17 @@ pub struct Observation {
 }
 
 impl Observation {
+    /// An observation of joints in whole runs, without evidence.
+    pub(crate) fn of_runs(
+        kind: ObservationKind,
+        joints: Vec<usize>,
+        runs: Vec<usize>,
+        spoils: Spoils,
+    ) -> Self {
+        let (or, units, zeros, stretches) = Default::default();
+        Self { kind, or, joints, units, zeros, runs, stretches, spoils, evidence: None }
+    }
+
     /// An observation of some seconds of a joint, which cannot be used.
     pub(crate) fn of_seconds(
         kind: ObservationKind,
@@ -34,10 +45,8 @@ impl Observation {
         stretches: Vec<RunStretch>,
     ) -> Self {
         let runs = stretches.first().map(|s| s.run).into_iter().collect();
-        let spoils = Spoils::Stretches;
-        let (or, joints) = (Vec::new(), vec![joint]);
-        let (units, zeros) = (Vec::new(), Vec::new());
-        Self { kind, or, joints, units, zeros, runs, stretches, spoils, evidence: None }
+        let own = Self::of_runs(kind, vec![joint], runs, Spoils::Stretches);
+        Self { stretches, ..own }
     }
 }
 

@@ -98,19 +98,14 @@ fn overlap(
     let in_a = *first.get(own.first()?)?;
     let shift_s = runs[b].time[longest.start] - runs[a].time[in_a];
     let rows = in_a..in_a + longest.len();
+    let kind = ObservationKind::Overlap { shift_s, length_s };
+    let joints = (0..runs[a].joints.len()).collect();
     Some(Observation {
-        kind: ObservationKind::Overlap { shift_s, length_s },
-        or: Vec::new(),
-        units: Vec::new(),
-        zeros: Vec::new(),
-        joints: (0..runs[a].joints.len()).collect(),
-        runs: vec![a, b],
         stretches: vec![
             RunStretch::of_rows(&runs[a], a, &rows),
             RunStretch::of_rows(&runs[b], b, &longest),
         ],
-        spoils: Spoils::Nothing,
-        evidence: None,
+        ..Observation::of_runs(kind, joints, vec![a, b], Spoils::Nothing)
     })
 }
 

@@ -117,15 +117,10 @@ fn observation(
         best.reading.is_of_efforts() && rivals.iter().all(|r| r.reading.is_of_efforts());
     let spoils = if of_efforts && !whole { Spoils::Joints } else { Spoils::Everything };
     Some(Observation {
-        kind,
         or,
         units: joint_units(judge, &best.reading),
-        zeros: Vec::new(),
-        joints,
-        runs: (0..runs).collect(),
-        stretches: Vec::new(),
-        spoils,
         evidence: Some(evidence),
+        ..Observation::of_runs(kind, joints, (0..runs).collect(), spoils)
     })
 }
 

@@ -24,16 +24,11 @@ pub(crate) fn zeros_of_runs(judge: &Judge, runs: usize) -> Option<Observation> {
         after: best.after,
         gain: all.iter().map(JointZeros::gain).sum(),
     };
+    let (kind, joints) = (ObservationKind::ZerosOfRuns, all.iter().map(|own| own.joint).collect());
     Some(Observation {
-        kind: ObservationKind::ZerosOfRuns,
-        or: Vec::new(),
-        joints: all.iter().map(|zeros| zeros.joint).collect(),
-        units: Vec::new(),
-        zeros: all.into_iter().flat_map(|zeros| zeros.of_runs).collect(),
-        runs: (0..runs).collect(),
-        stretches: Vec::new(),
-        spoils: Spoils::Joints,
+        zeros: all.into_iter().flat_map(|own| own.of_runs).collect(),
         evidence: Some(evidence),
+        ..Observation::of_runs(kind, joints, (0..runs).collect(), Spoils::Joints)
     })
 }
 
