@@ -21,8 +21,6 @@ const MOST_NAMES: usize = 200;
 pub(super) const MOST_RIVALS: usize = 4;
 /// Most sizes of a name.
 const MOST_SIZES: usize = 20;
-/// Most characters of a wrong word that a fault repeats.
-const MOST_SHOWN: usize = 60;
 
 /// An answer to a trial, checked.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,7 +56,8 @@ impl SpokenAnswer {
             FileError::Missing => whole("no file".to_owned()),
             error => whole(error.to_string()),
         })?;
-        let unread = |error: serde_json::Error| whole(excerpt(&error.to_string()));
+        let unread =
+            |error: serde_json::Error| whole(files::shorten_words(&error.to_string()).into_owned());
         // A list would be read as the fields of an answer in their order.
         let object: Map<String, Value> = serde_json::from_str(&text).map_err(unread)?;
         let answer: TrialAnswer = serde_json::from_value(object.into()).map_err(unread)?;
@@ -86,7 +85,7 @@ impl Check<'_> {
         for (k, named) in answer.names.iter().enumerate() {
             let finding = self.finding(&format!("names[{k}]"), named, k)?;
             if !seen.insert(finding.at.words()) {
-                let words = excerpt(&finding.at.words());
+                let words = files::shorten_words(&finding.at.words()).into_owned();
                 return Err(self.fault(&format!("names[{k}]"), words, "each cause once"));
             }
             findings.push(finding);
@@ -253,13 +252,5 @@ fn diagnosis(verdict: Verdict, findings: Vec<Finding>) -> Diagnosis {
 }
 
 fn quote(text: &str) -> String {
-    format!("{:?}", excerpt(text))
-}
-
-/// The start of a text, as much as a message repeats.
-fn excerpt(text: &str) -> String {
-    match text.char_indices().nth(MOST_SHOWN) {
-        Some((end, _)) => format!("{}...", &text[..end]),
-        None => text.to_owned(),
-    }
+    format!("{:?}", files::shorten(text))
 }
