@@ -108,6 +108,8 @@ const NUMERICAL: &[(&str, &str, &str, &str)] = &[
     ("inspection", "scale", "LEAST", "shortest filter"),
     ("inspection", "scale", "LOOKED_AT", "samples of a mean"),
     ("inspection", "sentence", "MOST_STRETCHES", "length of a list in a sentence"),
+    ("inspection", "sentence", "MOST_ZEROS", "length of a list in a sentence"),
+    ("inspection", "zeros", "RIDGE", "rounding of least squares"),
 ];
 
 /// Where functions judge logs by numbers, and the crate that each is of.
