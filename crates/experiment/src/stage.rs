@@ -158,14 +158,9 @@ fn stage_error(path: &Path) -> impl Fn(std::io::Error) -> ExperimentError {
 /// [`ExperimentError::Stage`].
 pub fn sha256(path: &Path) -> Result<String, ExperimentError> {
     let mut hasher = Sha256::new();
-    let mut file = files::open(path).map_err(|e| stage_error(path)(e.into()))?;
-    let mut buffer = vec![0; 1 << 16];
-    loop {
-        match std::io::Read::read(&mut file, &mut buffer).map_err(stage_error(path))? {
-            0 => return Ok(hexadecimal(hasher)),
-            read => hasher.update(&buffer[..read]),
-        }
-    }
+    files::each_piece(path, |piece| hasher.update(piece))
+        .map_err(|error| stage_error(path)(error.into()))?;
+    Ok(hexadecimal(hasher))
 }
 
 fn hexadecimal(hasher: Sha256) -> String {

@@ -11,4 +11,4 @@ mod named_file;
 
 pub use error::FileError;
 pub use long_words::{MESSAGE, WORD, shorten, shorten_words};
-pub use named_file::{KEPT_BYTES, bytes, each_piece, is_below, open, text};
+pub use named_file::{KEPT_BYTES, bytes, each_piece, is_below, open, read_some, text};

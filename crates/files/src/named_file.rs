@@ -56,11 +56,23 @@ pub fn each_piece(path: &Path, mut take: impl FnMut(&[u8])) -> Result<(), FileEr
     let mut file = open(path)?;
     let mut piece = vec![0; PIECE_BYTES];
     loop {
-        match file.read(&mut piece) {
-            Ok(0) => return Ok(()),
-            Ok(length) => take(&piece[..length]),
+        match read_some(&mut file, &mut piece)? {
+            0 => return Ok(()),
+            length => take(&piece[..length]),
+        }
+    }
+}
+
+/// Some bytes of a source; 0 at its end. A read that a signal interrupts is asked again.
+///
+/// # Errors
+///
+/// Those of [`Read::read`], but for interruptions.
+pub fn read_some(source: &mut impl Read, piece: &mut [u8]) -> io::Result<usize> {
+    loop {
+        match source.read(piece) {
             Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-            Err(error) => return Err(error.into()),
+            ended => return ended,
         }
     }
 }

@@ -231,6 +231,7 @@ pub(crate) fn is_of_the_disk(error: &BenchmarkError) -> bool {
     match error {
         B::TrialFolder { .. } => true,
         B::Experiment(error) => match &**error {
+            E::Stage { .. } | E::UnreadableTruth { .. } => true,
             E::Log(log) => is_of_a_log(log),
             E::Robot(robot) => is_of_a_robot(robot),
             E::Document(document) => is_of_a_document(document),

@@ -221,6 +221,7 @@ impl Writing {
             Ok(()) => {
                 // The Parquet file beside it holds all of it and more.
                 let _ = std::fs::remove_file(&growing);
+                problems.extend(grown.err().map(|error| error.to_string()));
                 log
             }
             Err(error) => {

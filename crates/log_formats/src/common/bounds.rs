@@ -65,13 +65,8 @@ impl<R> BoundedLines<R> {
 
 impl<R: Read> Read for BoundedLines<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let count = loop {
-            match self.source.read(buffer) {
-                // The decoder of CSV does not ask again.
-                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-                read => break read?,
-            }
-        };
+        // The decoder of CSV does not ask again where a signal interrupts.
+        let count = files::read_some(&mut self.source, buffer)?;
         let is_end = |byte: &u8| matches!(byte, b'\n' | b'\r');
         self.line = match buffer[..count].iter().rposition(is_end) {
             Some(at) => (count - at - 1) as u64,

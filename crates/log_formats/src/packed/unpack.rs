@@ -71,14 +71,12 @@ pub(crate) fn unpack<T>(
 }
 
 /// Reads until `piece` is full or the source ends, and returns the number of bytes read.
-fn fill(source: &mut dyn Read, piece: &mut [u8]) -> io::Result<usize> {
+fn fill(mut source: &mut dyn Read, piece: &mut [u8]) -> io::Result<usize> {
     let mut length = 0;
     while length < piece.len() {
-        match source.read(&mut piece[length..]) {
-            Ok(0) => break,
-            Ok(count) => length += count,
-            Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
-            Err(e) => return Err(e),
+        match files::read_some(&mut source, &mut piece[length..])? {
+            0 => break,
+            count => length += count,
         }
     }
     Ok(length)

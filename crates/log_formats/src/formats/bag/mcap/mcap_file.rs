@@ -63,8 +63,8 @@ impl Reader<'_> {
                 // No more room than for what was read, whatever length a record claims.
                 LinearReadEvent::ReadRequest(count) => {
                     let piece = reader.insert(count.min(PIECE));
-                    let read =
-                        file.read(piece).map_err(|e| FormatError::unreadable(self.path, &e))?;
+                    let read = files::read_some(&mut file, piece)
+                        .map_err(|e| FormatError::unreadable(self.path, &e))?;
                     reader.notify_read(read);
                 }
                 LinearReadEvent::Record { opcode, data } => match self.parse(opcode, data)? {
