@@ -23,6 +23,7 @@ mod alarms;
 mod baselines;
 mod cause_bench;
 mod damage;
+mod disk_failure;
 mod error;
 mod paired;
 mod panel;

@@ -9,13 +9,14 @@ use rayon::ThreadPool;
 
 use crate::account::campaign_account::{AccountShard, FOLDER, simulated_trials};
 use crate::account::trial_account::TrialAccount;
+use crate::disk_failure::is_of_the_disk;
 use crate::error::BenchmarkError;
 use crate::panel::judgement::Judgement;
 use crate::trial_folder::unusable;
 use crate::trials::campaign::Campaign;
 use crate::trials::campaign_folder::CampaignFolder;
 use crate::trials::part::Part;
-use crate::trials::work::{is_of_the_disk, pool};
+use crate::trials::work::pool;
 
 /// Receives every finished account, and may stop the work.
 pub trait AccountProgress: Sync {

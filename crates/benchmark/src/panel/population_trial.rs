@@ -10,6 +10,7 @@ use robot::{Loaded, Robot};
 
 use crate::baselines::baseline::Baseline;
 use crate::baselines::least_squares::least_squares;
+use crate::disk_failure::is_of_the_disk;
 use crate::error::BenchmarkError;
 use crate::panel::answers::{Answers, Costs, HeldOut};
 use crate::panel::judgement::Judgement;
@@ -92,6 +93,7 @@ fn answers(folder: &Path, without: &[EffectKind], logs_s: f64) -> Result<Answers
     let nominal = error_of(&robot.robot);
     let given = match read_runs(&folder.join(LOGS), &robot.robot) {
         Ok(given) => given,
+        Err(error) if is_of_the_disk(&error) => return Err(error),
         Err(BenchmarkError::Experiment(error)) => {
             let ExperimentError::Log(refusal) = &*error else { return Err((*error).into()) };
             // Logs that cannot be read are refused before anything is said of them. Where the folder lies is

@@ -198,9 +198,10 @@ impl CampaignFolder {
         Ok(paths)
     }
 
-    /// The record in a shard, or in words why it does not belong to this campaign.
+    /// The record in a shard, or in words why it does not belong to this campaign. A shard that cannot be read is read once
+    /// more: a disk that answers then has lost nothing.
     fn read(&self, path: &Path) -> Result<Record, String> {
-        let mut records = Record::read(path)?;
+        let mut records = Record::read(path).or_else(|_| Record::read(path))?;
         let (Some(record), true) = (records.pop(), records.is_empty()) else {
             return Err("it does not hold one trial".to_owned());
         };
