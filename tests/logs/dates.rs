@@ -6,7 +6,7 @@ use std::sync::Arc;
 use arrow_array::{
     ArrayRef, Float64Array, RecordBatch, TimestampMicrosecondArray, TimestampNanosecondArray,
 };
-use logs::{ColumnMap, Excerpt, LogError, ReadOptions, Run, read_run};
+use logs::{ColumnMap, Excerpt, LogError, ReadOptions, Run, read_run, run_of_columns};
 use parquet::arrow::ArrowWriter;
 
 use crate::support::{Scratch, assert_golden, golden, two_joints};
@@ -91,6 +91,12 @@ fn time_may_have_another_name_where_only_one_column_has_it() {
     for name in ["Time", "t", "timestamp", "__time"] {
         assert_golden(&read(table(name, |k| (0.125 * k as f64).to_string())).unwrap());
     }
+    let columns = ["t", "j1.position", "j1.effort", "j2.position", "j2.effort"];
+    let scales = [(0.125, 0.0), (0.25, 0.0), (1.0, 0.0), (0.25, 1.0), (1.0, -2.0)];
+    let samples = |(scale, offset)| (0..5).map(|k| scale * f64::from(k) + offset).collect();
+    let in_memory = columns.map(str::to_owned).into_iter().zip(scales.map(samples)).collect();
+    let options = ReadOptions::default();
+    assert_golden(&run_of_columns("run", in_memory, &two_joints(), &options).unwrap());
     let two = read(table("t,stamp", |k| format!("{k},{k}"))).unwrap_err().to_string();
     assert!(two.contains("there is no column time"), "{two}");
 }

@@ -9,7 +9,8 @@
 //! `.desired_velocity`, `.desired_acceleration`, `.commanded_effort` and, from a second
 //! encoder, `.link_position` (SI units, radians). Only `time`, `position` and `effort` are
 //! required. Columns are found by name, in any order; a [`ColumnMap`] reads files that
-//! use other names or units. [`write_csv`] and [`write_parquet`] write a whole log, [`write_npz`] any columns; a [`LogWriter`] writes one while it
+//! use other names or units. [`write_csv`] and [`write_parquet`] write a whole log, [`write_npz`] any columns;
+//! a [`LogWriter`] writes one while it
 //! is recorded.
 //!
 //! [`prepare`] applies the same zero-phase [`LowPass`] to `q`, `qd` and `qdd`. It does not filter

@@ -7,7 +7,7 @@ use crate::naming::column_map::ColumnMap;
 pub struct ReadOptions<'a> {
     /// Names and units of the columns, for a file that does not use the usual ones.
     pub map: Option<&'a ColumnMap>,
-    /// Name of the column of time, where the map gives none and `<joint>.position` is usual.
+    /// Name of the column of time, where the map gives none.
     pub time: &'a str,
     /// Suffix of the effort columns: the effort is read from `<joint>.<effort>`. The default is `effort`. With another
     /// value the columns `<joint>.effort` are kept among the further ones, and the `effort` entries of the

@@ -125,6 +125,10 @@ pub fn run_of_columns(
     options: &ReadOptions,
 ) -> Result<Run, LogError> {
     let rate_hz = options.map.and_then(ColumnMap::rate_hz);
+    let names: Vec<String> = columns.keys().cloned().collect();
+    let is_mapped = options.map.and_then(ColumnMap::time).is_some();
+    let other = other_time(&names, options.time()).filter(|_| !is_mapped);
+    let options = &ReadOptions { time: other.as_deref().unwrap_or(options.time), ..*options };
     let of_time = columns.get(options.time()).filter(|_| rate_hz.is_none());
     let any = columns.values().next().filter(|_| rate_hz.is_some());
     let expected = of_time.or(any).map_or(0, Vec::len);
