@@ -17,6 +17,7 @@ mod hidden;
 mod intervals;
 mod late_goals;
 mod ledger;
+mod light_links;
 mod long;
 mod poor;
 mod protocols;

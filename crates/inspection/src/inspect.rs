@@ -3,6 +3,7 @@ use robot::Robot;
 
 use crate::another_robot::another_robot;
 use crate::clock::clock;
+use crate::clocks_of_runs::clocks_of_runs;
 use crate::effort_shift::effort_shift;
 use crate::judge::Judge;
 use crate::limits::at_limits;
@@ -47,6 +48,11 @@ pub fn inspect_with(
     let Some(thinned) = Thinned::of(runs, &pieces, thresholds) else { return observations };
     let samples = thinned.samples(0, 0);
     if samples.rows() < thresholds.least_rows {
+        return observations;
+    }
+    let other_clocks = clocks_of_runs(&samples, runs.len(), thresholds);
+    if !other_clocks.is_empty() {
+        observations.extend(other_clocks);
         return observations;
     }
     let mut judge = Judge::new(robot, thresholds, samples);

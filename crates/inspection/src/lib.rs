@@ -2,6 +2,7 @@
 
 mod another_robot;
 mod clock;
+mod clocks_of_runs;
 mod effort_shift;
 mod effort_unit;
 mod fit;

@@ -83,6 +83,11 @@ impl Observation {
                 let Some(unit) = power_of_ten(factor, t.time_unit) else { return false };
                 runs.iter_mut().flat_map(|run| &mut run.time).for_each(|t| *t /= unit);
             }
+            (K::OtherClock { factor }, _) => {
+                for &run in &self.runs {
+                    runs[run].time.iter_mut().for_each(|t| *t /= factor);
+                }
+            }
             (K::ZerosOfRuns, _) => {
                 for zero in &self.zeros {
                     shift_effort(&mut runs[zero.run].joints[zero.joint], -zero.offset);

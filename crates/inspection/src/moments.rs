@@ -5,7 +5,7 @@ use logs::Run;
 use crate::frozen::frozen;
 use crate::jumps::jumps;
 use crate::observation::{Observation, ObservationKind};
-use crate::spikes::spikes;
+use crate::spikes::{frequent_spikes, spikes};
 use crate::thresholds::InspectionThresholds;
 
 /// Errors at some moments of runs, and the runs without them.
@@ -31,7 +31,9 @@ pub(crate) fn moments(robot: &robot::Robot, runs: &[Run], t: &InspectionThreshol
             if link.joint.kind.is_rotation() {
                 moments.found.extend(jumps(run, r, j, &mut joint.position, t));
             }
-            moments.found.extend(spikes(run, r, j, &mut joint.position, t));
+            let single = spikes(run, r, j, &mut joint.position, t);
+            let single = single.or_else(|| frequent_spikes(run, r, j, &joint.position, t));
+            moments.found.extend(single);
         }
         let (found, rows) = frozen(robot, &moments.corrected[r], r, t);
         moments.found.extend(found);

@@ -132,6 +132,13 @@ impl MotionSamples {
     }
 
     /// Rows in which joint `j` moves: at rest dry friction holds any effort within its level. All rows where it hardly moves.
+    /// The values of joint `j` in its informative rows of a run.
+    pub fn column_of_run(&self, signal: &[f64], j: usize, run: usize) -> Vec<f64> {
+        let all = signal.iter().skip(j).step_by(self.joints.max(1)).zip(&self.run);
+        let own = all.zip(self.informative(j)).filter(|((_, of), is)| *is && **of == run);
+        own.map(|((x, _), _)| *x).collect()
+    }
+
     fn informative(&self, j: usize) -> Vec<bool> {
         let speeds = || self.motion[1].iter().skip(j).step_by(self.joints.max(1)).map(|v| v.abs());
         let least = self.moving_speed * speeds().fold(0.0, f64::max);

@@ -203,6 +203,11 @@ pub enum ObservationKind {
         /// How much later the efforts are in the log (s).
         shift_s: f64,
     },
+    /// The clock of a run goes otherwise than that of the others.
+    OtherClock {
+        /// Logged time of the run per second.
+        factor: f64,
+    },
     /// Velocity columns are in another unit than the derivative of the positions.
     VelocityUnit {
         /// Logged velocity per derivative of the position.
@@ -216,6 +221,13 @@ pub enum ObservationKind {
     Spikes {
         /// How many.
         count: usize,
+        /// The largest deviation (rad or m).
+        height: f64,
+    },
+    /// So many single samples of a position are off that none can be told from its neighbours.
+    FrequentSpikes {
+        /// Share of the samples of the run, 0 to 1.
+        share: f64,
         /// The largest deviation (rad or m).
         height: f64,
     },

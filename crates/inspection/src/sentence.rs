@@ -32,6 +32,9 @@ impl Observation {
         if let ObservationKind::Overlap { shift_s, length_s } = self.kind {
             return names.overlap(&self.runs, shift_s, length_s);
         }
+        if let ObservationKind::OtherClock { factor } = self.kind {
+            text = names.other_clock(&self.runs, factor);
+        }
         if !self.stretches.is_empty() {
             text += &format!(" ({})", names.stretches(&self.stretches));
         }
@@ -95,9 +98,11 @@ impl Names<'_> {
         use ObservationKind as K;
         let at = self.joints(joints);
         match kind {
-            K::StuckEncoder | K::Held | K::Spikes { .. } | K::TurnJump { .. } => {
-                self.moment(kind, joints)
-            }
+            K::StuckEncoder
+            | K::Held
+            | K::Spikes { .. }
+            | K::FrequentSpikes { .. }
+            | K::TurnJump { .. } => self.moment(kind, joints),
             K::EffortSign => format!("The effort of {at} seems to have the other sign"),
             K::PositionSign => format!("The position of {at} seems to have the other sign"),
             K::VelocitySign => format!(
@@ -130,6 +135,7 @@ impl Names<'_> {
                 "Effort and motion disagree on what a second is: {} in the column `time` are one",
                 number(factor)
             ),
+            K::OtherClock { .. } | K::Overlap { .. } => String::new(),
             K::EffortShifted { shift_s } => format!(
                 "The efforts fit the motion when they are taken {:.2} s {}",
                 shift_s.abs(),
@@ -143,7 +149,6 @@ impl Names<'_> {
                 let (share, [_, unit]) = (percent(share), self.units(joints));
                 format!("The effort of {at} is at {limit:.3} {unit} for {share} of the time")
             }
-            K::Overlap { .. } => String::new(),
             K::InertiaUnit => self.wide_inertias(),
             K::AnotherRobot => FOREIGN.to_owned(),
         }
@@ -159,6 +164,12 @@ impl Names<'_> {
                 let [unit, _] = self.units(joints);
                 format!(
                     "The position of {at} has single samples that are off: {count}, by up to {height:.3} {unit}"
+                )
+            }
+            K::FrequentSpikes { share, height } => {
+                let ([unit, _], share) = (self.units(joints), percent(share));
+                format!(
+                    "The position of {at} has single samples that are off, in {share} of the rows, by up to {height:.3} {unit}"
                 )
             }
             K::TurnJump { turns } => {
@@ -272,6 +283,15 @@ impl Names<'_> {
         )
     }
 
+    fn other_clock(&self, runs: &[usize], factor: f64) -> String {
+        let run = self.run(runs.first().copied().unwrap_or(usize::MAX));
+        format!(
+            "Run {run} has another clock: {} in the column `time` are a second, as its velocities say, which agree with \
+             the positions in other runs",
+            number(factor)
+        )
+    }
+
     fn stretches(&self, all: &[RunStretch]) -> String {
         let one = |s: &RunStretch| {
             if s.to_s - s.from_s > 0.0 {
@@ -314,6 +334,7 @@ fn remedy(kind: ObservationKind) -> &'static str {
         K::TimeUnit { .. } => {
             "State the unit of time in the column map, or log the controller's clock."
         }
+        K::OtherClock { .. } => "Write the time of this run in seconds.",
         K::EffortShifted { .. } => "Check that both are of one clock.",
         K::VelocityUnit { .. } => {
             "The velocity columns are not used; state their unit in the column map."
@@ -321,6 +342,9 @@ fn remedy(kind: ObservationKind) -> &'static str {
         K::StuckEncoder => "Leave these seconds out, and check the encoder and its cable.",
         K::Held => "Leave these seconds out, and check the logger.",
         K::Spikes { .. } => "Leave these samples out.",
+        K::FrequentSpikes { .. } => {
+            "Check the encoder and its cable: no derivative of such a position is that of the motion."
+        }
         K::TurnJump { .. } => "Take the full turns from the samples behind the jump.",
         K::AtLimit { .. } => {
             "Record a gentler motion: a clipped effort says nothing of the torque."

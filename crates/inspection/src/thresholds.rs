@@ -82,6 +82,8 @@ pub struct InspectionThresholds {
     pub velocity_correlation: f64,
     /// The same where the column is off by less than a third (1).
     pub close_velocity_correlation: f64,
+    /// Rows of a joint in a run from which its velocity is compared with the derivative of its position.
+    pub rows_of_clock: usize,
     /// Factors of the velocity columns of all joints that are the same, to this share (1).
     pub same_velocity_factor: f64,
     /// Rate of the slowest usual logger (Hz).
@@ -192,6 +194,7 @@ impl Default for InspectionThresholds {
             close_velocity: [0.75, 1.33],
             velocity_correlation: 0.95,
             close_velocity_correlation: 0.995,
+            rows_of_clock: 12,
             same_velocity_factor: 0.02,
             least_rate_hz: 10.0,
             time_unit: 1.05,
@@ -255,6 +258,8 @@ pub struct MomentThresholds {
     pub spike: f64,
     /// A spike is no more than one row in so many: what is more frequent is noise.
     pub rare_spike: usize,
+    /// Least height of frequent spikes over the noise of the position (1).
+    pub spike_over_noise: f64,
     /// Part of the rows that may be spikes or beside one: one in so many.
     pub bulk_of_rows: usize,
     /// Least height of a spike, in steps of the encoder (1).
@@ -287,6 +292,7 @@ impl Default for MomentThresholds {
             beside_freeze: 8,
             spike: 8.0,
             rare_spike: 100,
+            spike_over_noise: 10.0,
             bulk_of_rows: 20,
             spike_counts: 5.0,
             least_spike: 2e-3,

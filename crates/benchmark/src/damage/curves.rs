@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::damage::answer::DamageAnswer;
 use crate::damage::outcome::{DamageOutcome, Telling};
-use crate::damage::told::is_told;
+use crate::damage::told::{is_effect, is_told};
 use crate::error::BenchmarkError;
 use crate::trial_folder::unusable;
 use crate::trials::campaign::PopulationCampaign;
@@ -152,7 +152,9 @@ impl MadeTrial {
             kind,
             size,
             trial,
-            outcome: DamageOutcome::new(&self.answer, &after, telling),
+            outcome: DamageOutcome::new(&self.answer, &after, telling, |effect| {
+                is_effect(kind, effect)
+            }),
             verdict: after.verdict.words(),
             names: after.names.iter().map(|name| name.at.words()).collect(),
             said: new.map(|text| text.replace(&place, "")).collect(),

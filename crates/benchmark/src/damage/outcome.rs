@@ -1,5 +1,6 @@
 use std::fmt;
 
+use catalogue::EffectKind;
 use serde::Serialize;
 
 use crate::damage::answer::{DamageAnswer, NamedSizes};
@@ -34,19 +35,26 @@ impl DamageOutcome {
     pub const ALL: [Self; 5] = [Self::Right, Self::Told, Self::Open, Self::Changed, Self::Wrong];
 
     /// The outcome of an answer to spoilt logs, beside that to the same logs before; `telling` says whether it tells the
-    /// damage.
-    pub(crate) fn new(before: &DamageAnswer, after: &DamageAnswer, telling: Telling) -> Self {
-        let is_new = |name: &NamedSizes| !before.names.iter().any(|known| known.covers(name));
+    /// damage, and `is_damage` whether an effect is the damage by another name.
+    pub(crate) fn new(
+        before: &DamageAnswer,
+        after: &DamageAnswer,
+        telling: Telling,
+        is_damage: impl Fn(EffectKind) -> bool,
+    ) -> Self {
+        let is_new = |name: &&NamedSizes| !before.names.iter().any(|known| known.covers(name));
         let is_kept = |name: &NamedSizes| {
             after.names.iter().any(|found| name.covers(found) && name.agrees(found))
         };
-        let any_new = after.names.iter().any(is_new);
-        let same = !any_new && before.names.iter().all(is_kept);
+        let new = after.names.iter().filter(is_new);
+        let (damage, new): (Vec<&NamedSizes>, Vec<_>) = new.partition(|n| is_damage(n.at.effect));
+        let names_it = !damage.is_empty() && new.is_empty();
+        let same = damage.is_empty() && new.is_empty() && before.names.iter().all(is_kept);
         match (
             same && before.verdict == after.verdict,
-            telling == Telling::Told,
+            names_it || telling == Telling::Told,
             after.is_closed(),
-            any_new,
+            !new.is_empty(),
         ) {
             (true, ..) => Self::Right,
             (false, true, ..) => Self::Told,
@@ -99,7 +107,7 @@ mod tests {
     fn a_new_name_is_wrong_where_nothing_is_left_open_and_nothing_told() {
         let explained = |names: &[NamedSizes]| answer(Verdict::Explained, names);
         let before = explained(&[name("elbow", [0.9, 1.1])]);
-        let of = |after: &DamageAnswer, told| DamageOutcome::new(&before, after, told);
+        let of = |after: &DamageAnswer, told| DamageOutcome::new(&before, after, told, |_| false);
         assert_eq!(of(&before, Told), DamageOutcome::Right);
         assert_eq!(of(&explained(&[name("elbow", [1.0, 1.3])]), Untold), DamageOutcome::Right);
         assert_eq!(of(&explained(&[name("elbow", [1.2, 1.3])]), Untold), DamageOutcome::Changed);
@@ -117,6 +125,22 @@ mod tests {
         first.rivals.push(name("wrist", [0.0, 0.0]).at);
         let before = answer(Verdict::Explained, &[first]);
         let after = answer(Verdict::Explained, &[name("wrist", [0.95, 1.0])]);
-        assert_eq!(DamageOutcome::new(&before, &after, Untold), DamageOutcome::Right);
+        assert_eq!(DamageOutcome::new(&before, &after, Untold, |_| false), DamageOutcome::Right);
+    }
+
+    /// Friction in place of the damage stands for an effect that the damage is.
+    #[test]
+    fn a_name_that_is_the_damage_tells_it_where_no_other_is_new() {
+        let before = answer(Verdict::Consistent, &[]);
+        let mut other = name("wrist", [0.1, 0.2]);
+        other.at.effect = EffectKind::TorqueConstant;
+        let is_damage = |effect| effect == EffectKind::TorqueConstant;
+        let of = |names: &[NamedSizes]| {
+            let after = answer(Verdict::Explained, names);
+            DamageOutcome::new(&before, &after, Untold, is_damage)
+        };
+        assert_eq!(of(&[]), DamageOutcome::Changed);
+        assert_eq!(of(std::slice::from_ref(&other)), DamageOutcome::Told);
+        assert_eq!(of(&[other, name("elbow", [0.9, 1.1])]), DamageOutcome::Wrong);
     }
 }

@@ -1,3 +1,4 @@
+use catalogue::EffectKind;
 use population::{LogKind, LogSpoiling};
 
 use crate::damage::answer::DamageAnswer;
@@ -19,6 +20,12 @@ pub(crate) fn is_told(before: &DamageAnswer, after: &DamageAnswer, damage: &LogS
         spoiling_phrases(damage.kind).iter().any(|phrase| text.contains(phrase))
             && (!has_place || place(text))
     })
+}
+
+/// Whether an effect is the damage by another name: efforts that are off by a share of their own at every joint are what
+/// a torque constant does.
+pub(crate) fn is_effect(damage: LogKind, effect: EffectKind) -> bool {
+    damage == LogKind::EffortInAmperes && effect == EffectKind::TorqueConstant
 }
 
 /// Whether it is of no joint and no run.

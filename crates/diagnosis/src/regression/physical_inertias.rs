@@ -1,5 +1,6 @@
+use catalogue::EffectKind;
 use dynamics::{ConsistentFit, PARAMETERS_PER_LINK};
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen};
 use robot::{Inertia, Robot};
 
 use crate::columns::design::Design;
@@ -7,6 +8,9 @@ use crate::regression::fit::{Fit, pick};
 use crate::regression::gram::Information;
 use crate::regression::problem::HypothesisSet;
 use crate::thresholds::sizes::SizeThresholds;
+
+/// Thickness of a body along every axis, as a share of its distance from the origin of the link that holds it.
+const THICKNESS: f64 = 0.03;
 
 /// Weights of a model with every inertia physical.
 ///
@@ -25,7 +29,7 @@ pub(crate) fn physical_inertias(
         let fit = Fit::new(info, all, design.weight_prior());
         return fit.map_or_else(|| vec![0.0; design.width], |f| f.expand(design.width));
     }
-    let body: Vec<usize> = links.iter().flat_map(|(_, c)| c.iter().copied()).collect();
+    let body: Vec<usize> = links.iter().flat_map(|l| l.columns.iter().copied()).collect();
     let rest: Vec<usize> = all.into_iter().filter(|k| !body.contains(k)).collect();
     let Some(others) = Fit::new(info, rest.clone(), design.weight_prior()) else {
         return vec![0.0; design.width];
@@ -46,11 +50,20 @@ pub(crate) fn physical_inertias(
     weights
 }
 
-/// The links of a model, each with its ten columns.
-pub(crate) fn links(design: &Design, model: &HypothesisSet) -> Vec<(usize, Vec<usize>)> {
+/// A link of a model: its index, its ten columns, and whether they are those of a body that it holds.
+struct LinkOfModel {
+    link: usize,
+    columns: Vec<usize>,
+    holds: bool,
+}
+
+/// The links of a model.
+fn links(design: &Design, model: &HypothesisSet) -> Vec<LinkOfModel> {
     let of = |&g: &usize| {
         let group = &design.groups[g];
-        group.hypothesis.link().map(|link| (link, group.columns.clone()))
+        let holds = group.hypothesis.kind == EffectKind::Payload;
+        let columns = group.columns.clone();
+        group.hypothesis.link().map(|link| LinkOfModel { link, columns, holds })
     };
     model.iter().filter_map(of).collect()
 }
@@ -60,11 +73,11 @@ fn consistent_change(
     others: &Fit,
     info: &Information,
     robot: &Robot,
-    links: &[(usize, Vec<usize>)],
+    links: &[LinkOfModel],
     design: &Design,
     t: &SizeThresholds,
 ) -> Vec<f64> {
-    let body: Vec<usize> = links.iter().flat_map(|(_, c)| c.iter().copied()).collect();
+    let body: Vec<usize> = links.iter().flat_map(|l| l.columns.iter().copied()).collect();
     let flat = vec![f64::INFINITY; design.width];
     let (complement, score) = others.beyond(info, &body, &flat);
     let prior = pick(&DVector::from_column_slice(&design.prior), &body);
@@ -72,7 +85,7 @@ fn consistent_change(
     let nominal: Vec<f64> = robot.links().iter().flat_map(|l| l.inertia.parameters()).collect();
     let place: Vec<usize> = links
         .iter()
-        .flat_map(|(link, _)| (0..PARAMETERS_PER_LINK).map(move |p| PARAMETERS_PER_LINK * link + p))
+        .flat_map(|l| (0..PARAMETERS_PER_LINK).map(move |p| PARAMETERS_PER_LINK * l.link + p))
         .collect();
     let mut information = DMatrix::zeros(nominal.len(), nominal.len());
     let mut estimate = nominal.clone();
@@ -80,9 +93,9 @@ fn consistent_change(
         estimate[row] += change[i];
         place.iter().enumerate().for_each(|(k, &column)| information[(row, column)] = h[(i, k)]);
     }
-    let indices: Vec<usize> = links.iter().map(|(link, _)| *link).collect();
+    let indices: Vec<usize> = links.iter().map(|l| l.link).collect();
     let fit = ConsistentFit {
-        robot,
+        robot: &with_held_bodies(robot, links, &estimate),
         information: &information,
         estimate: &estimate,
         links: &indices,
@@ -97,6 +110,42 @@ fn consistent_change(
     let distance = |w: &DVector<f64>| (w - &change).dot(&(&h * (w - &change)));
     let nearest = found.filter(|w| distance(w) < distance(&back)).unwrap_or(back);
     nearest.iter().copied().collect()
+}
+
+/// The robot from whose inertias a change is measured.
+///
+/// The inertia of a link says nothing of what it holds, which may weigh many times as much. A change by a payload is
+/// therefore measured from a body of the estimated mass and centre; without a positive mass, from the link.
+fn with_held_bodies(robot: &Robot, links: &[LinkOfModel], estimate: &[f64]) -> Robot {
+    let mut robot = robot.clone();
+    let (of_links, _) = estimate.as_chunks::<PARAMETERS_PER_LINK>();
+    for LinkOfModel { link, .. } in links.iter().filter(|l| l.holds) {
+        let body = of_links.get(*link).and_then(|pi| thicken(&Inertia::from_parameters(pi)));
+        if let (Some(body), Some(link)) = (body, robot.link_mut(*link)) {
+            link.inertia = body;
+        }
+    }
+    robot
+}
+
+/// The body of the same mass and centre of mass that has at least the [`THICKNESS`] along every axis. `None` where the
+/// mass is not positive.
+///
+/// ```text
+/// S_com = tr(I_com)/2 1 - I_com >= m (THICKNESS r)^2,   m r^2 = m |c|^2 + tr|S_com|
+/// ```
+fn thicken(body: &Inertia) -> Option<Inertia> {
+    if body.mass.is_nan() || body.mass <= 0.0 {
+        return None;
+    }
+    let half = 0.5 * body.about_com.trace();
+    let mut moments = SymmetricEigen::new(Matrix3::identity() * half - body.about_com);
+    let about_origin =
+        moments.eigenvalues.abs().sum() + body.mass * body.com_in_link.norm_squared();
+    let least = THICKNESS * THICKNESS * about_origin;
+    moments.eigenvalues.apply(|value| *value = value.max(least));
+    let about_com = Matrix3::identity() * moments.eigenvalues.sum() - moments.recompose();
+    (least > 0.0).then_some(Inertia { about_com, ..body.clone() })
 }
 
 /// Information and most likely change of some weights, in the eigenvectors of

@@ -17,6 +17,9 @@ const LONGEST: usize = 50;
 const SPIKE_STEPS: f64 = 50.0;
 const SPIKE_SIZE: f64 = 3.0;
 
+/// Of efforts with spikes in up to half of the samples, so many steps are between two that are none.
+const CLEAN_STEPS: f64 = 0.2;
+
 /// Samples of an effort that are no efforts of the joint. The usual step is the largest of all but one in fifty.
 ///
 /// ```text
@@ -69,25 +72,62 @@ fn has_many_values(kept: &[usize], x: &[f64]) -> bool {
 }
 
 fn spikes(joint: &Joint, x: &[f64]) -> Vec<Impossible> {
-    let steps = x.windows(2).map(|x| (x[1] - x[0]).abs()).collect();
-    let step = SPIKE_STEPS * quantile(steps, USUAL_SHARE);
-    let usual = quantile(x.iter().map(|x| x.abs()).collect(), USUAL_SHARE);
+    let steps = steps(x.iter());
+    let found = stand_out(x, quantile(steps.clone(), USUAL_SHARE), size(x.iter(), USUAL_SHARE));
+    let found = if found.is_empty() { frequent_spikes(x, steps) } else { found };
+    let told = |k: usize| Impossible {
+        sample: k,
+        expectation: format!(
+            "joint {} has {:.3} before and {:.3} after it",
+            joint.name,
+            x[k - 1],
+            x[k + 1]
+        ),
+    };
+    found.into_iter().map(told).collect()
+}
+
+/// Samples that stand out between both of their neighbours, from the usual step and size of an effort.
+fn stand_out(x: &[f64], step: f64, size: f64) -> Vec<usize> {
     // An effort that hardly ever changes has no usual step: single changes are all it has.
     if step <= 0.0 {
         return Vec::new();
     }
-    let spike = |(k, near): (usize, &[f64])| {
+    let is_spike = |(k, near): (usize, &[f64])| {
         let [before, after] = [near[1] - near[0], near[1] - near[2]];
-        let stands_out = before * after > 0.0 && before.abs().min(after.abs()) > step;
-        (stands_out && near[1].abs() > SPIKE_SIZE * usual).then(|| Impossible {
-            sample: k + 1,
-            expectation: format!(
-                "joint {} has {:.3} before and {:.3} after it",
-                joint.name, near[0], near[2]
-            ),
-        })
+        let stands_out = before * after > 0.0 && before.abs().min(after.abs()) > SPIKE_STEPS * step;
+        (stands_out && near[1].abs() > SPIKE_SIZE * size).then_some(k + 1)
     };
-    x.windows(3).enumerate().filter_map(spike).collect()
+    x.windows(3).enumerate().filter_map(is_spike).collect()
+}
+
+/// Spikes of more samples than the usual step and size leave out. What stands out from the smaller steps and sizes, of
+/// one sample in five and of every other, are spikes where it stands out from those of the samples that are left, too.
+fn frequent_spikes(x: &[f64], steps: Vec<f64>) -> Vec<usize> {
+    let doubtful = stand_out(x, quantile(steps, CLEAN_STEPS), size(x.iter(), 0.5));
+    let share = doubtful.len() as f64 / x.len() as f64;
+    let mut is_kept = vec![true; x.len()];
+    doubtful.iter().for_each(|&k| is_kept[k] = false);
+    let kept = || x.iter().zip(&is_kept).filter(|(_, is)| **is).map(|(x, _)| x);
+    // Two spikes in a row are left, at most as often as single ones.
+    let usual = USUAL_SHARE.min(1.0 - 2.0 * share);
+    let (step, size) = (quantile(self::steps(kept()), usual), size(kept(), usual));
+    let doubtful = doubtful.into_iter();
+    let least = SPIKE_SIZE * size;
+    doubtful
+        .filter(|&k| {
+            let beside = [x[k - 1], x[k + 1]].map(|near| (x[k] - near).abs());
+            step > 0.0 && x[k].abs() > least && beside[0].min(beside[1]) > SPIKE_STEPS * step
+        })
+        .collect()
+}
+
+fn steps<'a>(x: impl Iterator<Item = &'a f64> + Clone) -> Vec<f64> {
+    x.clone().zip(x.skip(1)).map(|(a, b)| (b - a).abs()).collect()
+}
+
+fn size<'a>(x: impl Iterator<Item = &'a f64>, share: f64) -> f64 {
+    quantile(x.map(|x| x.abs()).collect(), share)
 }
 
 #[cfg(test)]
@@ -150,5 +190,38 @@ mod tests {
             effort[701] = size;
             assert_eq!(lost(&effort), [0_usize; 0], "{size} in two rows is a blow");
         }
+    }
+
+    /// Spikes of both signs and of any size beyond the efforts, in one sample of fifty, twenty or ten.
+    #[test]
+    fn single_samples_are_spikes_at_a_tenth_of_the_samples() {
+        let clean = swing();
+        for every in [50, 20, 10] {
+            let mut effort = clean.clone();
+            let spikes: Vec<usize> =
+                (every..effort.len() - 1).step_by(every).map(|k| k - k % 7 % 3).collect();
+            for (number, &k) in spikes.iter().enumerate() {
+                let size = 60.0 * 1.3_f64.powi((number % 12) as i32);
+                effort[k] = if number % 2 == 0 { size } else { -size };
+            }
+            let found = lost(&effort);
+            assert!(found.iter().all(|k| spikes.contains(k)), "{every}");
+            assert!(found.len() * 10 > 9 * spikes.len(), "{every}: {}", found.len());
+        }
+    }
+
+    /// A drive that is switched from row to row, and one whose commands alternate.
+    #[test]
+    fn efforts_that_alternate_have_no_spikes() {
+        let chatter = |k: usize| if k % 2 == 0 { 3.0 } else { -3.0 };
+        let chattering: Vec<f64> =
+            swing().iter().enumerate().map(|(k, x)| x + chatter(k)).collect();
+        assert_eq!(lost(&chattering), [0_usize; 0]);
+        let rarely: Vec<f64> = swing()
+            .iter()
+            .enumerate()
+            .map(|(k, x)| if k % 9 == 0 { x + 20.0 } else { *x })
+            .collect();
+        assert!(lost(&rarely).iter().all(|k| k % 9 == 0));
     }
 }
