@@ -88,25 +88,6 @@ fn moves_nothing(left: &LinearRest, beyond: &DVector<f64>, t: &LimitThresholds) 
     power > t.above_noise * noise && gap.norm_squared() > t.above_clamped * clamped.norm_squared()
 }
 
-/// Whether most samples beyond the limit have one beside them on the same side. A drive that is asked for too much is
-/// asked for it as long as the motion lasts; samples that are alone beyond all others are errors of the log.
-fn lasts(runs: &[Along], limit: &Limit) -> bool {
-    let (mut beyond, mut accompanied) = (0_usize, 0_usize);
-    for run in runs {
-        let effort: Vec<f64> = run.effort(limit.joint).collect();
-        let side = |k: usize| {
-            let over = effort.get(k).filter(|effort| effort.abs() > limit.limit);
-            over.map(|effort| effort.is_sign_positive())
-        };
-        for k in (0..effort.len()).filter(|&k| side(k).is_some()) {
-            let beside = [k.checked_sub(1), k.checked_add(1)];
-            beyond += 1;
-            accompanied += usize::from(beside.into_iter().flatten().any(|b| side(b) == side(k)));
-        }
-    }
-    2 * accompanied > beyond
-}
-
 /// The limit of joint `j`, if effort beyond it moves nothing.
 fn at_joint(
     runs: &[Along],
@@ -149,7 +130,7 @@ fn at_joint(
     }
     let limit = at(0.5 * (low + high));
     let found = trial(runs, left, &limit)?;
-    if !moves_nothing(left, &found.beyond, t) || !lasts(runs, &limit) {
+    if !moves_nothing(left, &found.beyond, t) {
         return Ok(None);
     }
     let samples = found.rest.iter().map(Vec::len).sum::<usize>() as f64;
