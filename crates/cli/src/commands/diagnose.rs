@@ -310,8 +310,9 @@ fn extended_toml(
     }
     for finding in &diagnosis.findings {
         let mut sizes = report::sizes(finding);
-        if let Some(first) = sizes.first_mut() {
-            *first = format!("{}: {first}", finding.at.words());
+        match sizes.first_mut() {
+            Some(first) => *first = format!("{}: {first}", finding.at.words()),
+            None => sizes.push(format!("{}: of unknown size", finding.at.words())),
         }
         let lines = report::pack(sizes.iter().map(String::as_str), "; ", COMMENT_WIDTH);
         for (i, line) in lines.iter().enumerate() {

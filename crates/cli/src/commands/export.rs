@@ -136,6 +136,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         robot: loaded.robot.name().to_owned(),
         files: exports.into_iter().map(written).collect(),
         fitted_without_a_name: diagnosed
+            .as_ref()
             .map(|diagnosed| diagnosed.fitted_without_a_name())
             .unwrap_or_default(),
         negligible: diagnosed.map(|diagnosed| diagnosed.negligible()).unwrap_or_default(),

@@ -7,7 +7,7 @@ use crate::corner::Origin;
 use crate::error::PopulationError;
 use crate::recorded::trial::draw_recorded_trial;
 use crate::spec::{PopulationSpec, RecordedSpec};
-use crate::trial::make::{make, write_runs};
+use crate::trial::make::make;
 
 /// Makes the files of a trial of any origin in a folder, creating it where it is absent. They are those of
 /// [`make`], without `truth` for recorded logs.
@@ -35,11 +35,5 @@ fn make_recorded_trial(
     folder: &Path,
 ) -> Result<(), PopulationError> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let trial = draw_recorded_trial(&recorded.data, origin, seed, &mut random)?;
-    let nominal = folder.join("nominal");
-    std::fs::create_dir_all(&nominal).map_err(PopulationError::of_folder(&nominal))?;
-    trial.robot.write(&nominal)?;
-    write_runs(&folder.join("logs"), &trial.runs)?;
-    write_runs(&folder.join("held_out"), &trial.held_out)?;
-    trial.sheet.write(folder)
+    draw_recorded_trial(&recorded.data, origin, seed, &mut random)?.write(folder)
 }

@@ -358,6 +358,17 @@ warning: elbow: quantised in steps of 0.01 N m
     }
 
     #[test]
+    fn a_finding_without_a_size_is_told_as_seen() {
+        let mut sample = sample::arm();
+        let friction = &mut sample.diagnosis.findings[0];
+        friction.parameters.iter_mut().for_each(|p| p.determined = false);
+        let plain = without_escapes(&text(&sample.report()));
+        assert!(plain.contains("(1 of unknown size)"), "{plain}");
+        assert!(plain.contains("\n    seen, its size is not determined by this log\n"), "{plain}");
+        assert!(!plain.contains("not determined by this log: level"), "{plain}");
+    }
+
+    #[test]
     fn verdicts_stand_below_one_another_beside_long_names() {
         let mut sample = sample::arm();
         sample.diagnosis.joints[0].name = "shoulder_lift_joint".to_owned();
