@@ -172,7 +172,7 @@ fn logs_of_real_arms_are_a_set_whose_causes_nobody_knows() {
     assert_eq!(answer.code, 2);
     assert!(answer.err.contains("--data <DIR>"), "{}", answer.err);
     let answer = run(path, &[&export[..], &["--data", "nowhere"]].concat());
-    assert_eq!(answer.code, 3);
+    assert_eq!(answer.code, 2);
     assert!(answer.err.contains("nowhere"), "{}", answer.err);
     let Some(data) = recorded::folder() else { return };
     let some = ["--data", data.to_str().unwrap(), "--first", "2"];
