@@ -7,11 +7,13 @@
     tau = W_b phi_b,    W_b columns of [Y, qd, sign(qd), qdd, 1] that do not depend on each other
 
 Its own functions in the order of `BaseIdentification.solve(wls=True)`: `build_regressor_basic`, `get_index_eliminate`
-(1e-3), decimation of regressor and efforts to 20 Hz, `QRDecomposer.double_decomposition` with the relative tolerance of
-1e-4 that its documentation gives for barely excited parameters, then least squares weighted by the residual of every
-joint. A prediction is that of the base parameters, which are those of the logs alone. A base parameter that begins with
-one of a drive is read as this one, the others in it as described; it is named where it is three standard deviations and
-2 % of the joint's effort away from the description, and its interval is 1.96 standard deviations.
+(1e-3), decimation of regressor and efforts to 20 Hz, `QRDecomposer.double_decomposition`, then least squares weighted by
+the residual of every joint. The relative tolerance that drops barely excited parameters is 1e-2: its documentation has 1e-4
+as an example, with which F1 of the smoke set is 55 % in place of 69.
+
+A prediction is that of the base parameters, which are those of the logs alone. A base parameter that begins with one of a
+drive is read as this one, the others in it as described; it is named where it is three standard deviations and 2 % of the
+joint's effort away from the description, and its interval is 1.96 standard deviations.
 """
 
 import sys
@@ -30,7 +32,7 @@ except ImportError as lack:
 
 from bench_set import CUTOFF_HZ, answer_all, low_pass
 
-ZERO, RELATIVE_TOLERANCE, ABSOLUTE_TOLERANCE = 1e-3, 1e-4, 1e-6
+ZERO, RELATIVE_TOLERANCE, ABSOLUTE_TOLERANCE = 1e-3, 1e-2, 1e-6
 STANDARD_DEVIATIONS, LEAST_SHARE, Z = 3.0, 0.02, 1.96
 # Of a parameter of FIGAROH the effect, its parameter, and the attribute of an MJCF joint that has the described value.
 DRIVE = {
