@@ -88,7 +88,7 @@ impl BenchManifest {
     }
 
     /// The trials, counted from 0, to which a folder has no answer.
-    pub fn unanswered(&self, answers: &Path) -> Vec<usize> {
+    pub fn remaining(&self, answers: &Path) -> Vec<usize> {
         let is_answered =
             |trial: &BenchTrial| answers.join(format!("{}.json", trial.name)).exists();
         (0..self.trials.len()).filter(|k| !is_answered(&self.trials[*k])).collect()

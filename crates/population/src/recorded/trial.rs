@@ -15,7 +15,6 @@ use crate::recorded::size::Measured;
 use crate::recorded::transplant::AddedCause;
 use crate::robot_files::RobotFiles;
 use crate::sheet::{Knowledge, TruthSheet};
-use crate::trial::make::write_runs;
 
 /// A trial of recorded logs.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,17 +68,13 @@ pub fn count_recorded_splits(data: &Path) -> usize {
     available(data).iter().map(RecordedArm::splits).sum()
 }
 
-/// Makes the files of unchanged recorded logs, with the held-out part of number `number` of all that
-/// [`count_recorded_splits`] counts. They are those of [`make_any`](crate::make_any).
+/// Unchanged recorded logs below the folder `data`, with the held-out part of number `number` of all that
+/// [`count_recorded_splits`] counts.
 ///
 /// # Errors
 ///
-/// [`PopulationError::NoRecordedLogs`] where there is no such part, and errors of reading and writing.
-pub fn make_recorded_split(
-    data: &Path,
-    number: usize,
-    folder: &Path,
-) -> Result<TruthSheet, PopulationError> {
+/// [`PopulationError::NoRecordedLogs`] where there is no such part, and errors of reading a robot or a log.
+pub fn read_recorded_split(data: &Path, number: usize) -> Result<RecordedTrial, PopulationError> {
     let mut choice = number;
     for arm in available(data) {
         if choice >= arm.splits() {
@@ -89,23 +84,9 @@ pub fn make_recorded_split(
         let robot = arm.robot().load()?.robot;
         let (used, steps) = arm.read(&robot)?;
         let split = split(arm.held_out_recordings(), &used, choice);
-        let trial = plain_trial(&arm, &robot, &steps, split);
-        trial.write(folder)?;
-        return Ok(trial.sheet);
+        return Ok(plain_trial(&arm, &robot, &steps, split));
     }
     Err(PopulationError::NoRecordedLogs { data: data.to_owned() })
-}
-
-impl RecordedTrial {
-    /// Writes its files into a folder, creating it where it is absent.
-    pub(crate) fn write(&self, folder: &Path) -> Result<(), PopulationError> {
-        let nominal = folder.join("nominal");
-        std::fs::create_dir_all(&nominal).map_err(PopulationError::of_folder(&nominal))?;
-        self.robot.write(&nominal)?;
-        write_runs(&folder.join("logs"), &self.runs)?;
-        write_runs(&folder.join("held_out"), &self.held_out)?;
-        self.sheet.write(folder)
-    }
 }
 
 /// Given and held-out logs.

@@ -12,8 +12,8 @@ pub const PART: &str = "CAUSE_BENCH_PART";
 
 /// An array job: a task for every part of which something is left.
 pub struct ArrayJob<'a> {
-    /// What its tasks run.
-    pub run: Run<'a>,
+    /// What its tasks do.
+    pub task: TaskKind<'a>,
     /// The folder that the job and what its tasks say lie in, from the root.
     pub folder: &'a Path,
     /// The parts, counted from 1.
@@ -26,8 +26,8 @@ pub struct ArrayJob<'a> {
     pub options: &'a [SbatchOption],
 }
 
-/// What a task runs.
-pub enum Run<'a> {
+/// What a task does.
+pub enum TaskKind<'a> {
     /// This program makes trials of the campaign in the folder.
     Work { program: &'a Path },
     /// An entrant of CauseBench answers trials of a set.
@@ -56,13 +56,13 @@ impl ArrayJob<'_> {
         let options = options.into_iter().chain(self.options.iter().map(ToString::to_string));
         let options: String = options.map(|o| format!("#SBATCH {}\n", in_a_comment(&o))).collect();
         let part = format!("\"$SLURM_ARRAY_TASK_ID/{}\"", self.parts);
-        let (what, lines) = match self.run {
-            Run::Work { program } => {
+        let (what, lines) = match self.task {
+            TaskKind::Work { program } => {
                 let [program, folder] = [nameable(program)?, folder].map(quote_argument);
                 let work = format!("exec {program} work {folder} --part {part}");
                 ("The blind trials", format!("{work} --jobs {} --quiet", self.jobs))
             }
-            Run::Entrant { command } => {
+            TaskKind::Entrant { command } => {
                 let words: Vec<String> = command.iter().map(|word| quote_argument(word)).collect();
                 let export = format!("export {PART}={part}");
                 ("The answers of an entrant", format!("{export}\nexec {}", words.join(" ")))

@@ -6,7 +6,7 @@ use benchmark::{BenchManifest, CampaignFolder, Part};
 use cli::{display_path, print};
 use report::quote_argument;
 
-use crate::commands::submit::array_job::{ArrayJob, Run};
+use crate::commands::submit::array_job::{ArrayJob, TaskKind};
 use crate::commands::submit::job_number::JobNumber;
 use crate::commands::submit::sbatch_option::SbatchOption;
 use crate::error::BenchError;
@@ -59,7 +59,7 @@ enum Engine {
 /// Writes the job that makes what is left, and submits it.
 pub fn run(arguments: &Arguments) -> Result<BenchExitStatus, BenchError> {
     let left = match &arguments.answers {
-        Some(answers) => BenchManifest::open(&arguments.folder)?.unanswered(answers),
+        Some(answers) => BenchManifest::open(&arguments.folder)?.remaining(answers),
         None => CampaignFolder::open(&arguments.folder)?.remaining(Part::WHOLE)?,
     };
     if left.is_empty() {
@@ -77,13 +77,13 @@ fn to_slurm(arguments: &Arguments, left: &[usize]) -> Result<(), BenchError> {
     let numbers: BTreeSet<usize> = left.iter().map(part).collect();
     let tasks = numbers.len();
     let program = cli::program_file()?;
-    let (folder, run) = match &arguments.answers {
-        Some(answers) => (answers, Run::Entrant { command: &arguments.command }),
-        None => (&arguments.folder, Run::Work { program: &program }),
+    let (folder, task) = match &arguments.answers {
+        Some(answers) => (answers, TaskKind::Entrant { command: &arguments.command }),
+        None => (&arguments.folder, TaskKind::Work { program: &program }),
     };
     let root = std::path::absolute(folder)?;
     let script = ArrayJob {
-        run,
+        task,
         folder: &root,
         numbers,
         parts: arguments.parts,
