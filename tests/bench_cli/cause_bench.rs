@@ -7,6 +7,7 @@ use std::time::SystemTime;
 
 use checks::arms::workspace_root;
 use checks::book::can;
+use checks::recorded;
 use serde_json::{Value, json};
 
 use crate::program::run;
@@ -159,6 +160,41 @@ fn an_answer_that_is_no_json_is_told_and_is_a_gap() {
     assert_eq!((answer.code, answer.err.as_str()), (1, ""));
     assert!(answer.out.contains("3 count as nothing said:"), "{}", answer.out);
     assert!(!answer.out.contains('\u{1b}') && answer.out.contains("[2J"), "{}", answer.out);
+}
+
+/// Real arms: the held-out efforts are predicted, names count nowhere.
+#[test]
+fn logs_of_real_arms_are_a_set_whose_causes_nobody_knows() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let export = ["export", "--set", "recorded", "--out", "set", "--quiet"];
+    let answer = run(path, &export);
+    assert_eq!(answer.code, 2);
+    assert!(answer.err.contains("--data <DIR>"), "{}", answer.err);
+    let answer = run(path, &[&export[..], &["--data", "nowhere"]].concat());
+    assert_eq!(answer.code, 2);
+    assert!(answer.err.contains("nowhere"), "{}", answer.err);
+    let Some(data) = recorded::folder() else { return };
+    let some = ["--data", data.to_str().unwrap(), "--first", "2"];
+    let answer = run(path, &[&export[..], &some].concat());
+    assert_eq!((answer.code, answer.err.as_str()), (0, ""));
+    let manifest = json_of(&path.join("set/manifest.json"));
+    fs::create_dir(path.join("me")).unwrap();
+    for trial in manifest["trials"].as_array().unwrap() {
+        let channels = trial["held_out"]["channels"].as_array().unwrap();
+        assert!(!channels.contains(&json!("effort")), "{channels:?}");
+        let named = json!({"names": [{"effect": "FR02", "joint": trial["joints"][0]}]});
+        let file = format!("me/{}.json", trial["name"].as_str().unwrap());
+        fs::write(path.join(file), named.to_string()).unwrap();
+    }
+    let answer = run(path, &["score", "set", "me", "--truth", "set.truth.json", "--json"]);
+    assert_eq!((answer.code, answer.err.as_str()), (0, ""));
+    let scores: Value = serde_json::from_str(&answer.out).unwrap();
+    let all = &scores["rows"][0];
+    for task in ["name", "true_names", "named", "size", "abstain"] {
+        assert_eq!(all[task]["items"], json!(0), "{task}: {all}");
+    }
+    assert_eq!((&all["predict"]["value"], &all["predict"]["of"]), (&json!(1.0), &json!(2)));
 }
 
 /// The properties of an object of a schema, with those of the objects that it refers to, and none open to others.

@@ -1,9 +1,12 @@
 use std::fs;
 use std::path::Path;
 
+use checks::arms::workspace_root;
+use checks::book::can;
+
 use crate::campaign::{done, folder, merged};
 use crate::loopback_slurm::LoopbackSlurm;
-use crate::program::{Answer, plumbline_bench};
+use crate::program::{Answer, plumbline_bench, run};
 
 /// Folder of the campaign, as a lab might have it.
 const NAME: &str = "Ada's \"100%\" #1";
@@ -80,4 +83,49 @@ fn a_cluster_that_loses_a_node_makes_what_one_machine_makes() {
     assert_eq!(merged(path, NAME), whole);
     assert_eq!(fs::read_dir(lab.join("work")).unwrap().count(), 0);
     assert_eq!(submit(&slurm, path, "3"), "0 trials left, nothing is submitted\n");
+}
+
+/// An entrant of CauseBench on two nodes: the same scores as here, and nothing left to submit.
+#[test]
+fn a_cluster_answers_a_set_as_one_machine_does() {
+    if !can("python3", &["-c", ""]) {
+        println!("no python3 here: the entrant is left out");
+        return;
+    }
+    let Some(slurm) = LoopbackSlurm::start() else { return };
+    let root = tempfile::tempdir().unwrap();
+    let path = root.path();
+    done(path, &["export", "--set", "smoke", "--first", "4", "--out", "set", "--quiet"]);
+    let script = workspace_root().join("tests/benches/entrants/coulomb.py");
+    let script = script.to_str().unwrap();
+    let submit = || -> Answer {
+        let arguments = ["submit", "set", "--answers", "two nodes", "--parts", "3", "--"];
+        let command = ["python3", script, "set", "two nodes"];
+        let mut program = slurm.command(plumbline_bench());
+        program.current_dir(path).args(arguments).args(command).output().unwrap().into()
+    };
+    let answer = submit();
+    assert_eq!((answer.code, answer.err.as_str()), (0, ""), "{}", slurm.logs());
+    let said = answer.out;
+    assert!(said.starts_with("4 trials left, in 3 tasks, submitted as job "), "{said}");
+    assert!(said.ends_with("  plumbline-bench score set 'two nodes' --truth FILE\n"), "{said}");
+    let job = said.lines().find_map(|line| line.strip_prefix("  squeue -j ")).unwrap();
+    let parts = [1, 2, 3].map(|part| format!("{job}_{part}"));
+    slurm.wait("the job to come to its end", 120, |slurm| {
+        parts.iter().all(|part| slurm.fact(part, "JobState") == "COMPLETED")
+    });
+    let nodes = parts.each_ref().map(|part| slurm.fact(part, "BatchHost"));
+    assert!(nodes.contains(&"n1".to_owned()) && nodes.contains(&"n2".to_owned()), "{nodes:?}");
+    assert!(can(
+        "python3",
+        &[script, path.join("set").to_str().unwrap(), path.join("here").to_str().unwrap()]
+    ));
+    let scores = |answers: &str| {
+        let score = ["score", "set", answers, "--truth", "set.truth.json", "--json"];
+        let answer = run(path, &score);
+        assert_eq!((answer.code, answer.err.as_str()), (0, ""), "{answers}");
+        answer.out.replace(answers, "entrant")
+    };
+    assert_eq!(scores("two nodes"), scores("here"));
+    assert_eq!(submit().out, "0 trials left, nothing is submitted\n");
 }

@@ -20,6 +20,7 @@ HERE = Path(__file__).resolve().parent
 ENTRANTS = {
     "plumbline": ["plumbline.py", "PROGRAM"],
     "least_squares": ["least_squares.py"],
+    "figaroh": ["base_parameters.py"],
     "sysid_all": ["sysid.py"],
     "sysid_oracle": ["sysid.py", "TRUTH"],
     "gaussian_process": ["learned.py", "gp"],

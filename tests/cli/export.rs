@@ -78,10 +78,13 @@ fn an_export_tells_what_has_no_name() {
     let toml = "urdf = \"arm.urdf\"\n[joint.elbow]\ncoulomb_nm = 0.8\nrotor_inertia_kg_m2 = 0.01\n";
     std::fs::write(out.join("extended.toml"), toml).unwrap();
     let diagnosis = r#"{"provenance": {"files": []}, "also_fitted": {"parameters": [
-        {"code": "IN03", "effect": "rotor_inertia", "joint": "elbow", "name": "inertia", "value": 0.01}]}}"#;
+        {"code": "IN03", "effect": "rotor_inertia", "joint": "elbow", "name": "inertia", "value": 0.01}]},
+        "negligible": [{"code": "FR01", "effect": "viscous_friction", "joint": "elbow", "most_at": "elbow"}]}"#;
     std::fs::write(out.join("diagnosis.json"), diagnosis).unwrap();
     let answer = run(folder.path(), &["export", "out", "--to", "mjcf"]);
     let expected = "Fitted without a name, and in the files above: IN03 rotor inertia at elbow.";
+    assert!(answer.out.contains(expected), "{}", answer.out);
+    let expected = "Seen and negligible, and in the files above: FR01 viscous friction at elbow.";
     assert!(answer.out.contains(expected), "{}", answer.out);
     std::fs::remove_file(out.join("diagnosis.json")).unwrap();
     let answer = run(folder.path(), &["export", "out", "--to", "mjcf"]);

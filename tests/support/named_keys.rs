@@ -54,6 +54,7 @@ pub const KEYS: &[(&str, &str, &str, Use)] = &[
         Use::Bench("", &["damage", "X", "--out", "out"]),
     ),
     ("bench_cli/src/commands/damage.rs", "Arguments", "out", Use::Folder),
+    ("bench_cli/src/commands/export.rs", "Arguments", "data", Use::Folder),
     ("bench_cli/src/commands/export.rs", "Arguments", "out", Use::Folder),
     ("bench_cli/src/commands/export.rs", "Arguments", "truth", Use::Folder),
     (
@@ -76,6 +77,7 @@ pub const KEYS: &[(&str, &str, &str, Use)] = &[
     ("bench_cli/src/commands/score.rs", "Arguments", "replay", Use::Own),
     ("bench_cli/src/commands/score.rs", "Arguments", "truth", Use::Own),
     ("bench_cli/src/commands/sheets.rs", "Arguments", "store", Use::Folder),
+    ("bench_cli/src/commands/submit/submission.rs", "Arguments", "answers", Use::Folder),
     ("bench_cli/src/commands/submit/submission.rs", "Arguments", "folder", Use::Folder),
     (
         "bench_cli/src/commands/times/measure.rs",

@@ -21,6 +21,7 @@ Examples:
   plumbline-bench work blind --jobs 8
   plumbline-bench work blind --part 1/4
   plumbline-bench submit blind --sbatch --partition=short
+  plumbline-bench submit core --answers mine -- my_method core mine
   plumbline-bench status blind
   plumbline-bench merge blind
 
@@ -74,7 +75,8 @@ pub enum BenchCommand {
     Plan(plan::Arguments),
     /// Makes every trial that is left; may be ended and begun again, and run several times at once
     Work(work::Arguments),
-    /// Has a cluster that shares the folder make every trial that is left, a part a task
+    /// Has a cluster that shares the folder make every trial that is left, or answer it by an entrant of CauseBench, a
+    /// part a task
     Submit(submission::Arguments),
     /// Says how many trials are made, failed, broken and left
     Status(Folder),

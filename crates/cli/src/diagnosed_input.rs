@@ -22,6 +22,7 @@ pub struct DiagnosedInput {
     options: InputOptions,
     files: Vec<SourceFile>,
     fitted: Vec<EffectAt>,
+    negligible: Vec<EffectAt>,
 }
 
 /// The part of a `diagnosis.json` that is read here.
@@ -31,17 +32,19 @@ struct Document {
     input: InputOptions,
     provenance: Files,
     also_fitted: Option<AlsoFitted>,
+    #[serde(default)]
+    negligible: Vec<Place>,
 }
 
 /// What was fitted without a name.
 #[derive(Deserialize)]
 struct AlsoFitted {
-    parameters: Vec<FittedParameter>,
+    parameters: Vec<Place>,
 }
 
-/// A fitted parameter, by its effect and place.
+/// An effect and its place.
 #[derive(Deserialize)]
-struct FittedParameter {
+struct Place {
     effect: EffectKind,
     joint: Option<String>,
     link: Option<String>,
@@ -70,15 +73,16 @@ impl DiagnosedInput {
         let wrong = |reason: String| DesignError::Diagnosis { path: file.clone(), reason };
         let text =
             files::text(&file, files::KEPT_BYTES).map_err(|error| wrong(error.to_string()))?;
-        let Document { input, provenance, also_fitted } =
+        let Document { input, provenance, also_fitted, negligible } =
             serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
         let fitted = also_fitted.into_iter().flat_map(|also| also.parameters);
-        let place = |FittedParameter { effect, joint, link }| EffectAt { effect, joint, link };
+        let place = |Place { effect, joint, link }| EffectAt { effect, joint, link };
         Ok(Self {
             file,
             options: input,
             files: provenance.files,
             fitted: fitted.map(place).collect(),
+            negligible: negligible.into_iter().map(place).collect(),
         })
     }
 
@@ -87,6 +91,11 @@ impl DiagnosedInput {
         let mut places: Vec<String> = self.fitted.iter().map(EffectAt::words).collect();
         places.dedup();
         places
+    }
+
+    /// Causes that the extended robot has and that are too small to be findings, in words.
+    pub fn negligible(&self) -> Vec<String> {
+        self.negligible.iter().map(EffectAt::words).collect()
     }
 
     /// The folder of the diagnosis.

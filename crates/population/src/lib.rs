@@ -41,12 +41,14 @@ pub use recorded::arm::{RecordedArm, available};
 pub use recorded::law::AddedLaw;
 pub use recorded::point_mass::{PointMass, point_mass_torque};
 pub use recorded::transplant::Transplant;
-pub use recorded::trial::{RecordedTrial, draw_recorded_trial};
+pub use recorded::trial::{
+    RecordedTrial, count_recorded_splits, draw_recorded_trial, read_recorded_split,
+};
 pub use robot_files::RobotFiles;
 pub use robot_shares::RobotShares;
 pub use sheet::{CauseRole, Knowledge, LogSpoiling, Strength, TrueCause, TrueStranger, TruthSheet};
 pub use spec::{FORMAT, LogKindSpec, PopulationSpec, RecordedSpec, ServoShareSpec};
 pub use store::{Came, Kept, Remade, Store};
 pub use trial::again::sheet_again;
-pub use trial::any::make_any;
+pub use trial::any::{make_any, make_recorded_split};
 pub use trial::make::make;

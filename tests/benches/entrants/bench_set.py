@@ -4,6 +4,7 @@ Nothing of Plumbline is used: NumPy alone, and MuJoCo for the torque of an MJCF.
 """
 
 import json
+import os
 import sys
 import time
 from pathlib import Path
@@ -74,10 +75,17 @@ class Trial:
 
 
 def answer_all(answer):
-    """Answers every trial of the set that the command line names; a trial that fails has no answer, and says why."""
+    """Answers every trial of the set that the command line names; a trial that fails has no answer, and says why.
+
+    On a cluster, where CAUSE_BENCH_PART is K/N, a part of them, and of these what has no answer yet.
+    """
     folder, answers = map(Path, sys.argv[1:3])
     answers.mkdir(parents=True, exist_ok=True)
-    for entry in json.loads((folder / "manifest.json").read_text())["trials"]:
+    of_cluster = os.environ.get("CAUSE_BENCH_PART")
+    part, parts = map(int, (of_cluster or "1/1").split("/"))
+    for entry in json.loads((folder / "manifest.json").read_text())["trials"][part - 1 :: parts]:
+        if of_cluster and (answers / f"{entry['name']}.json").exists():
+            continue
         trial, begin = Trial(folder, answers, entry), time.process_time()
         try:
             said = answer(trial)
@@ -85,7 +93,10 @@ def answer_all(answer):
             print(f"{trial.name}: {type(error).__name__}: {error}", flush=True)
             continue
         said.setdefault("seconds", time.process_time() - begin)
-        (answers / f"{trial.name}.json").write_text(json.dumps(said))
+        # The answer comes last and whole: what a killed entrant leaves is no answer.
+        begun = answers / f"{trial.name}.json.begun"
+        begun.write_text(json.dumps(said))
+        begun.replace(answers / f"{trial.name}.json")
 
 
 def mjcf_torque(model, joints, log):

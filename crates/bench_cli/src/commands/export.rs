@@ -13,9 +13,12 @@ use crate::exit_status::BenchExitStatus;
 /// Arguments of `export`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The set: 12 short trials, 120, or 60 with wrong descriptions, servos and spoilt logs
+    /// The set: 12 short trials, 120, 60 with wrong descriptions, servos and spoilt logs, or logs of real arms
     #[arg(long, value_parser = sets())]
     set: BenchSet,
+    /// Of the set recorded: the folder that holds a folder of logs an arm
+    #[arg(long, value_name = "DIR", required_if_eq("set", "recorded"))]
+    data: Option<PathBuf>,
     /// Folder for the trials, empty or absent
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
@@ -47,6 +50,7 @@ fn sets() -> impl TypedValueParser<Value = BenchSet> {
 pub fn run(arguments: &Arguments) -> Result<BenchExitStatus, BenchError> {
     let request = ExportRequest {
         set: arguments.set,
+        data: arguments.data.clone().unwrap_or_default(),
         seed: arguments.seed,
         most: arguments.first,
         folder: arguments.out.clone(),

@@ -18,11 +18,13 @@ pub enum BenchSet {
     Core,
     /// Sixty trials with wrong descriptions, servos and spoilt logs.
     Hard,
+    /// Logs of real arms, whose causes nobody knows: predictions and drifts alone.
+    Recorded,
 }
 
 impl BenchSet {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Smoke, Self::Core, Self::Hard];
+    pub const ALL: [Self; 4] = [Self::Smoke, Self::Core, Self::Hard, Self::Recorded];
 
     /// Its name in files and on the command line.
     pub const fn name(self) -> &'static str {
@@ -30,12 +32,14 @@ impl BenchSet {
             Self::Smoke => "smoke",
             Self::Core => "core",
             Self::Hard => "hard",
+            Self::Recorded => "recorded",
         }
     }
 
-    /// The population that its trials are of.
-    pub(crate) fn population(self) -> PopulationSpec {
+    /// The population that its trials are of; none for recorded ones.
+    pub(crate) fn population(self) -> Option<PopulationSpec> {
         let (trials, logs, log_s, longest_s) = match self {
+            Self::Recorded => return None,
             Self::Smoke => (12, [1, 3], [5.0, 10.0], 20.0),
             Self::Core => (120, [1, 4], [5.0, 20.0], 40.0),
             Self::Hard => (60, [1, 4], [5.0, 20.0], 40.0),
@@ -58,8 +62,8 @@ impl BenchSet {
             servos: None,
             recorded: None,
         };
-        match self {
-            Self::Smoke | Self::Core => usual,
+        Some(match self {
+            Self::Smoke | Self::Core | Self::Recorded => usual,
             Self::Hard => PopulationSpec {
                 spoilt: 0.2,
                 robots: RobotShares {
@@ -78,7 +82,7 @@ impl BenchSet {
                 servos: Some(ServoShareSpec { share: 0.15, delay_ms: [0.0, 60.0] }),
                 ..usual
             },
-        }
+        })
     }
 
     /// Seed of trial `number`, from that of the set; `seed` of a set that nobody else can make.

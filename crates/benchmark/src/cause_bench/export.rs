@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
 use exchange::{Format, export};
-use population::PopulationSpec;
+use population::{PopulationError, PopulationSpec, count_recorded_splits, make_recorded_split};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use robot::{Loaded, TorqueSource};
@@ -39,6 +39,8 @@ const CREEP_SHARE: f64 = 0.02;
 pub struct ExportRequest {
     /// The set.
     pub set: BenchSet,
+    /// Folder of recorded logs, for [`BenchSet::Recorded`].
+    pub data: PathBuf,
     /// Seed of a set that nobody else can make; `None` for the public one.
     pub seed: Option<u64>,
     /// Most trials, the first ones; `None` for all.
@@ -71,10 +73,15 @@ pub fn export_set(
 ) -> Result<BenchManifest, BenchmarkError> {
     prepare(request)?;
     let spec = request.set.population();
-    let count = request.most.map_or(spec.trials, |most| most.min(spec.trials));
+    let all =
+        spec.as_ref().map_or_else(|| count_recorded_splits(&request.data), |spec| spec.trials);
+    if all == 0 {
+        return Err(PopulationError::NoRecordedLogs { data: request.data.clone() }.into());
+    }
+    let count = request.most.map_or(all, |most| most.min(all));
     let made: Result<Vec<_>, BenchmarkError> = threads(request.jobs)?.install(|| {
         let make = |number| {
-            let made = export_trial(request, &spec, number);
+            let made = export_trial(request, spec.as_ref(), number);
             on_trial();
             made
         };
@@ -118,12 +125,15 @@ fn threads(jobs: usize) -> Result<ThreadPool, BenchmarkError> {
 /// Makes a trial in a folder of its own and writes what may be seen of it.
 fn export_trial(
     request: &ExportRequest,
-    spec: &PopulationSpec,
+    spec: Option<&PopulationSpec>,
     number: usize,
 ) -> Result<(BenchTrial, TrialTruth), BenchmarkError> {
     let temporary = tempfile::tempdir().map_err(unusable(&std::env::temp_dir()))?;
     let made = temporary.path();
-    let sheet = population::make(spec, request.set.trial_seed(request.seed, number), made)?;
+    let sheet = match spec {
+        Some(spec) => population::make(spec, request.set.trial_seed(request.seed, number), made)?,
+        None => make_recorded_split(&request.data, number, made)?,
+    };
     let name = format!("trial_{:03}", number + 1);
     let folder = request.folder.join(&name);
     fs::create_dir_all(folder.join(LOGS)).map_err(unusable(&folder))?;
@@ -134,7 +144,12 @@ fn export_trial(
         logs.push(out.log(&format!("{LOGS}/log_{}", k + 1), read(path)?)?);
     }
     let held_out = log_files(&made.join(HELD_OUT))?;
-    let columns = held_out.first().map(|path| read(path)).transpose()?.unwrap_or_default();
+    // Of recorded arms a part of every log is held out: each trial has another one.
+    let columns = held_out
+        .get(number % held_out.len().max(1))
+        .map(|path| read(path))
+        .transpose()?
+        .unwrap_or_default();
     let held_out_effort = columns.iter().filter_map(effort).collect();
     let time = columns.iter().find(|(name, _)| name == TIME).map_or(&[][..], |(_, t)| t);
     let moving = columns.iter().filter_map(|(name, q)| {

@@ -86,4 +86,11 @@ impl BenchManifest {
             other => Err(unusable(format!("schema {other:?}"))),
         }
     }
+
+    /// The trials, counted from 0, to which a folder has no answer.
+    pub fn remaining(&self, answers: &Path) -> Vec<usize> {
+        let is_answered =
+            |trial: &BenchTrial| answers.join(format!("{}.json", trial.name)).exists();
+        (0..self.trials.len()).filter(|k| !is_answered(&self.trials[*k])).collect()
+    }
 }

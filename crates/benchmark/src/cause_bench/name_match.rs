@@ -1,4 +1,5 @@
 use diagnosis::EffectAt;
+use population::Knowledge;
 
 use crate::panel::judgement::Judgement;
 use crate::statistics::rate::Fraction;
@@ -20,9 +21,9 @@ pub struct NameMatch {
 }
 
 impl NameMatch {
-    /// Of a trial; nothing where its logs are spoilt.
+    /// Of a trial; nothing where its logs are spoilt, or nobody knows its causes.
     pub fn new(judgement: &Judgement) -> Self {
-        if judgement.is_spoilt() {
+        if judgement.is_spoilt() || judgement.knowledge == Knowledge::None {
             return Self::default();
         }
         let (findings, causes) = (&judgement.findings, &judgement.causes);

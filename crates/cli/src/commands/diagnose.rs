@@ -310,19 +310,26 @@ fn extended_toml(
     }
     for finding in &diagnosis.findings {
         let mut sizes = report::sizes(finding);
-        if let Some(first) = sizes.first_mut() {
-            *first = format!("{}: {first}", finding.at.words());
+        match sizes.first_mut() {
+            Some(first) => *first = format!("{}: {first}", finding.at.words()),
+            None => sizes.push(format!("{}: of unknown size", finding.at.words())),
         }
         let lines = report::pack(sizes.iter().map(String::as_str), "; ", COMMENT_WIDTH);
         for (i, line) in lines.iter().enumerate() {
             text.push_str(&comment(&format!("{}{line}", if i == 0 { "" } else { "  " })));
         }
     }
-    if let Some(also) = &diagnosis.also_fitted {
-        let mut places: Vec<String> = also.parameters.iter().map(|p| p.at.words()).collect();
-        places.dedup();
+    let fitted = diagnosis.also_fitted.iter().flat_map(|also| &also.parameters);
+    let mut fitted: Vec<String> = fitted.map(|p| p.at.words()).collect();
+    fitted.dedup();
+    let negligible: Vec<String> = diagnosis.negligible.iter().map(|n| n.at.words()).collect();
+    let headings = [
+        ("Fitted without a name (--only-findings leaves these out):", fitted),
+        ("Seen and negligible:", negligible),
+    ];
+    for (heading, places) in headings.iter().filter(|(_, places)| !places.is_empty()) {
+        text.push_str(&format!("#\n# {heading}\n"));
         let lines = report::pack(places.iter().map(String::as_str), "; ", COMMENT_WIDTH);
-        text.push_str("#\n# Fitted without a name (--only-findings leaves these out):\n");
         lines.iter().for_each(|line| text.push_str(&comment(line)));
     }
     let is_named = diagnosis.findings.iter().any(|f| f.at.effect == EffectKind::TimeSkew);

@@ -80,6 +80,8 @@ struct Exports {
     files: Vec<Written>,
     /// What was fitted without a name and is in the files, where the folder holds a diagnosis.
     fitted_without_a_name: Vec<String>,
+    /// What is seen, too small to be a finding, and in the files, where the folder holds a diagnosis.
+    negligible: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     loss: Option<Loss>,
 }
@@ -134,8 +136,10 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
         robot: loaded.robot.name().to_owned(),
         files: exports.into_iter().map(written).collect(),
         fitted_without_a_name: diagnosed
+            .as_ref()
             .map(|diagnosed| diagnosed.fitted_without_a_name())
             .unwrap_or_default(),
+        negligible: diagnosed.map(|diagnosed| diagnosed.negligible()).unwrap_or_default(),
         loss,
     };
     if arguments.json {
@@ -182,11 +186,16 @@ fn text(exports: &Exports) -> String {
         text.push_str(&table(&["where", "what", "fate", "how or why"], rows));
         text.push('\n');
     }
-    if !exports.fitted_without_a_name.is_empty() {
-        let places = exports.fitted_without_a_name.join("; ");
-        let sentence = format!(
-            "Fitted without a name, and in the files above: {places}. plumbline diagnose --only-findings leaves them out."
-        );
+    let unnamed = [
+        (
+            "Fitted without a name",
+            &exports.fitted_without_a_name,
+            " plumbline diagnose --only-findings leaves them out.",
+        ),
+        ("Seen and negligible", &exports.negligible, ""),
+    ];
+    for (what, places, help) in unnamed.iter().filter(|(_, places, _)| !places.is_empty()) {
+        let sentence = format!("{what}, and in the files above: {}.{help}", places.join("; "));
         let lines = report::wrap(&sentence, report::TERMINAL_WIDTH);
         text.push_str(&(lines.join("\n") + "\n"));
     }

@@ -63,6 +63,32 @@ pub fn draw_recorded_trial(
     Ok(trial)
 }
 
+/// Number of ways to hold a part of the logs out, over all arms below the folder `data`.
+pub fn count_recorded_splits(data: &Path) -> usize {
+    available(data).iter().map(RecordedArm::splits).sum()
+}
+
+/// Unchanged recorded logs below the folder `data`, with the held-out part of number `number` of all that
+/// [`count_recorded_splits`] counts.
+///
+/// # Errors
+///
+/// [`PopulationError::NoRecordedLogs`] where there is no such part, and errors of reading a robot or a log.
+pub fn read_recorded_split(data: &Path, number: usize) -> Result<RecordedTrial, PopulationError> {
+    let mut choice = number;
+    for arm in available(data) {
+        if choice >= arm.splits() {
+            choice -= arm.splits();
+            continue;
+        }
+        let robot = arm.robot().load()?.robot;
+        let (used, steps) = arm.read(&robot)?;
+        let split = split(arm.held_out_recordings(), &used, choice);
+        return Ok(plain_trial(&arm, &robot, &steps, split));
+    }
+    Err(PopulationError::NoRecordedLogs { data: data.to_owned() })
+}
+
 /// Given and held-out logs.
 struct Split<'a> {
     /// The given logs, each with the recorded log that it comes from.

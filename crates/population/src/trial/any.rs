@@ -5,7 +5,8 @@ use rand_chacha::rand_core::SeedableRng;
 
 use crate::corner::Origin;
 use crate::error::PopulationError;
-use crate::recorded::trial::draw_recorded_trial;
+use crate::recorded::trial::{RecordedTrial, draw_recorded_trial, read_recorded_split};
+use crate::sheet::TruthSheet;
 use crate::spec::{PopulationSpec, RecordedSpec};
 use crate::trial::make::{make, write_runs};
 
@@ -35,7 +36,26 @@ fn make_recorded_trial(
     folder: &Path,
 ) -> Result<(), PopulationError> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let trial = draw_recorded_trial(&recorded.data, origin, seed, &mut random)?;
+    write_recorded(&draw_recorded_trial(&recorded.data, origin, seed, &mut random)?, folder)
+}
+
+/// Makes the files of unchanged recorded logs in a folder, with the held-out part of number `number` of all that
+/// [`count_recorded_splits`](crate::count_recorded_splits) counts. They are those of [`make_any`].
+///
+/// # Errors
+///
+/// As [`read_recorded_split`], and errors of writing.
+pub fn make_recorded_split(
+    data: &Path,
+    number: usize,
+    folder: &Path,
+) -> Result<TruthSheet, PopulationError> {
+    let trial = read_recorded_split(data, number)?;
+    write_recorded(&trial, folder)?;
+    Ok(trial.sheet)
+}
+
+fn write_recorded(trial: &RecordedTrial, folder: &Path) -> Result<(), PopulationError> {
     let nominal = folder.join("nominal");
     std::fs::create_dir_all(&nominal).map_err(PopulationError::of_folder(&nominal))?;
     trial.robot.write(&nominal)?;

@@ -6,7 +6,7 @@ use crate::diagnosis::joint_charts::worst_of;
 use crate::diagnosis::places::{JointUnits, acting_on};
 use crate::diagnosis::report::Report;
 use crate::diagnosis::sentence::{short_bottom_line, title};
-use crate::diagnosis::tables::{JointRow, joint_rows, name_beside_joint, size, sizes};
+use crate::diagnosis::tables::{JointRow, has_no_size, joint_rows, name_beside_joint, size, sizes};
 use pages::{Chart, Medium, Palette, ReportError, Stacked, join_names, pack, shorten, stack, wrap};
 
 /// Width of the right panel (px); the left one stands in the template.
@@ -203,6 +203,7 @@ fn changes(finding: &Finding) -> Vec<String> {
     let differs = |p: &&Estimate| p.determined && !(p.ci95[0]..=p.ci95[1]).contains(&p.nominal);
     let changed: Vec<&Estimate> = finding.parameters.iter().filter(differs).collect();
     match changed.as_slice() {
+        [] if has_no_size(finding) => vec!["of unknown size".to_owned()],
         [] if finding.parameters.len() == 1 => sizes(finding),
         [] => vec!["only jointly determined".to_owned()],
         [one] => vec![size(one, finding.parameters.len())],

@@ -1,12 +1,13 @@
-use diagnosis::{Diagnosis, JointReport, Verdict};
+use diagnosis::{Diagnosis, Finding, JointReport, Verdict};
 
 use crate::diagnosis::report::Report;
+use crate::diagnosis::tables::has_no_size;
 use pages::{count_noun, join_names, percent, significant};
 
 /// The verdict over all joints in one sentence.
 pub fn verdict_sentence(diagnosis: &Diagnosis) -> String {
     let Diagnosis { robot, joints, findings, verdict, data, .. } = diagnosis;
-    let effects = count_noun(findings.len(), "named effect");
+    let effects = count_findings(findings);
     let is_open = |v| matches!(v, Verdict::PartlyExplained | Verdict::Unexplained);
     let left = at_joints(joints, is_open);
     let is_lost = |v| v == Verdict::DataInadequate;
@@ -54,6 +55,17 @@ pub fn verdict_sentence(diagnosis: &Diagnosis) -> String {
     }
 }
 
+/// How many effects have a name, and how many of them no size: `2 named effects (1 of unknown size)`.
+fn count_findings(findings: &[Finding]) -> String {
+    let open = findings.iter().filter(|f| has_no_size(f)).count();
+    let named = count_noun(findings.len(), "named effect");
+    match (findings.len(), open) {
+        (_, 0) => named,
+        (all, open) if all == open => format!("{named} of unknown size"),
+        _ => format!("{named} ({open} of unknown size)"),
+    }
+}
+
 fn verb(count: usize) -> &'static str {
     if count == 1 { "accounts for" } else { "account for" }
 }
@@ -74,7 +86,7 @@ fn at_joints(joints: &[JointReport], wanted: impl Fn(Verdict) -> bool) -> String
 /// The robot and its verdict, as a title.
 pub(crate) fn title(diagnosis: &Diagnosis) -> String {
     let Diagnosis { robot, findings, verdict, .. } = diagnosis;
-    let effects = count_noun(findings.len(), "named effect");
+    let effects = count_findings(findings);
     match verdict {
         Verdict::Explained | Verdict::PartlyExplained => {
             format!("{robot}: {} by {effects}", verdict.words())
@@ -205,6 +217,18 @@ mod tests {
             verdict_sentence(&sample.diagnosis),
             "Partly explained: 2 named effects found in the model of arm, structure is left at joint elbow"
         );
+    }
+
+    #[test]
+    fn the_sentence_says_how_many_effects_have_no_size() {
+        let mut diagnosis = sample::arm().diagnosis;
+        let friction = diagnosis.findings.iter_mut().find(|f| f.at.link.is_none()).unwrap();
+        friction.parameters.iter_mut().for_each(|p| p.determined = false);
+        let sentence = verdict_sentence(&diagnosis);
+        assert!(sentence.contains(": 2 named effects (1 of unknown size) found in"), "{sentence}");
+        diagnosis.findings.retain(has_no_size);
+        let sentence = verdict_sentence(&diagnosis);
+        assert!(sentence.contains(": 1 named effect of unknown size found in"), "{sentence}");
     }
 
     #[test]

@@ -103,6 +103,12 @@ pub fn sizes(finding: &Finding) -> Vec<String> {
     known.map(|p| size(p, finding.parameters.len())).collect()
 }
 
+/// The logs show the effect, and none of its sizes. A link's moments are sizes that are no parameters of a finding.
+pub(crate) fn has_no_size(finding: &Finding) -> bool {
+    let is_whole_link = finding.at.effect == EffectKind::InertialParameters;
+    !is_whole_link && finding.parameters.iter().all(|p| !p.determined)
+}
+
 /// The size of one of `count` parameters.
 pub(crate) fn size(parameter: &Estimate, count: usize) -> String {
     let name = if count == 1 { String::new() } else { parameter.name.replace('_', " ") + " " };

@@ -5,7 +5,7 @@ use crate::diagnosis::forward::forward_sentence;
 use crate::diagnosis::places::{JointUnits, acting_on, findings_of};
 use crate::diagnosis::report::Report;
 use crate::diagnosis::sentence::{bottom_line, verdict_sentence};
-use crate::diagnosis::tables::{name_beside_joint, sizes, words_for_floor};
+use crate::diagnosis::tables::{has_no_size, name_beside_joint, sizes, words_for_floor};
 use pages::{
     BOLD, FAINT, TERMINAL_WIDTH, count_noun, join_names, pack, percent, push_entry, push_warnings,
     significant, wrap,
@@ -256,7 +256,9 @@ fn finding(out: &mut String, finding: &Finding) {
     }
     let open = finding.parameters.iter().filter(|p| !p.determined);
     let open: Vec<String> = open.map(|p| p.name.replace('_', " ")).collect();
-    if !open.is_empty() {
+    if has_no_size(finding) {
+        note(out, "seen, its size is not determined by this log");
+    } else if !open.is_empty() {
         note(out, &format!("not determined by this log: {}", open.join(", ")));
     }
 }
@@ -353,6 +355,17 @@ warning: elbow: quantised in steps of 0.01 N m
         assert!(plain.contains("of 5.00 N·m RMS, noise -\n"), "{plain}");
         assert!(plain.contains("\nnoise -            of which the logs tell nothing\n"), "{plain}");
         assert!(plain.contains("\nnoise (effort)     "), "{plain}");
+    }
+
+    #[test]
+    fn a_finding_without_a_size_is_told_as_seen() {
+        let mut sample = sample::arm();
+        let friction = &mut sample.diagnosis.findings[0];
+        friction.parameters.iter_mut().for_each(|p| p.determined = false);
+        let plain = without_escapes(&text(&sample.report()));
+        assert!(plain.contains("(1 of unknown size)"), "{plain}");
+        assert!(plain.contains("\n    seen, its size is not determined by this log\n"), "{plain}");
+        assert!(!plain.contains("not determined by this log: level"), "{plain}");
     }
 
     #[test]

@@ -7,20 +7,31 @@ use report::quote_argument;
 use crate::commands::submit::sbatch_option::SbatchOption;
 use crate::submit_error::SubmitError;
 
-/// An array job: a task for every part of a campaign of which something is left.
+/// The variable that tells an entrant its part, such as `2/100`.
+pub const PART: &str = "CAUSE_BENCH_PART";
+
+/// An array job: a task for every part of which something is left.
 pub struct ArrayJob<'a> {
-    /// This program.
-    pub program: &'a Path,
-    /// The folder of the campaign, from the root.
+    /// What its tasks do.
+    pub task: TaskKind<'a>,
+    /// The folder that the job and what its tasks say lie in, from the root.
     pub folder: &'a Path,
     /// The parts, counted from 1.
     pub numbers: BTreeSet<usize>,
     /// Of how many.
     pub parts: NonZeroUsize,
-    /// Trials that a task makes at a time.
+    /// Processors of a task.
     pub jobs: NonZeroUsize,
     /// What `sbatch` is told besides.
     pub options: &'a [SbatchOption],
+}
+
+/// What a task does.
+pub enum TaskKind<'a> {
+    /// This program makes trials of the campaign in the folder.
+    Work { program: &'a Path },
+    /// An entrant of CauseBench answers trials of a set.
+    Entrant { command: &'a [String] },
 }
 
 impl ArrayJob<'_> {
@@ -30,7 +41,7 @@ impl ArrayJob<'_> {
     ///
     /// [`SubmitError::Path`] for a path that cannot stand in it.
     pub fn script(&self) -> Result<String, SubmitError> {
-        let (program, folder) = (nameable(self.program)?, nameable(self.folder)?);
+        let folder = nameable(self.folder)?;
         // Slurm reads a percent sign as the start of a number to put in.
         let output = format!("--output={}/slurm/%A_%a.log", folder.replace('%', "%%"));
         let options = [
@@ -44,16 +55,25 @@ impl ArrayJob<'_> {
         ];
         let options = options.into_iter().chain(self.options.iter().map(ToString::to_string));
         let options: String = options.map(|o| format!("#SBATCH {}\n", in_a_comment(&o))).collect();
+        let part = format!("\"$SLURM_ARRAY_TASK_ID/{}\"", self.parts);
+        let (what, lines) = match self.task {
+            TaskKind::Work { program } => {
+                let [program, folder] = [nameable(program)?, folder].map(quote_argument);
+                let work = format!("exec {program} work {folder} --part {part}");
+                ("The blind trials", format!("{work} --jobs {} --quiet", self.jobs))
+            }
+            TaskKind::Entrant { command } => {
+                let words: Vec<String> = command.iter().map(|word| quote_argument(word)).collect();
+                let export = format!("export {PART}={part}");
+                ("The answers of an entrant", format!("{export}\nexec {}", words.join(" ")))
+            }
+        };
         Ok(format!(
             "#!/bin/sh\n\
-             # The blind trials that are left of a campaign, a part a task. What is made when a node\n\
-             # fails is not made again.\n\
+             # {what} that are left, a part a task. What is made when a node fails is not\n\
+             # made again.\n\
              {options}\n\
-             exec {} work {} --part \"$SLURM_ARRAY_TASK_ID/{}\" --jobs {} --quiet\n",
-            quote_argument(program),
-            quote_argument(folder),
-            self.parts,
-            self.jobs
+             {lines}\n"
         ))
     }
 }

@@ -1,12 +1,12 @@
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use benchmark::{CampaignFolder, Part};
+use benchmark::{BenchManifest, CampaignFolder, Part};
 use cli::{display_path, print};
 use report::quote_argument;
 
-use crate::commands::submit::array_job::ArrayJob;
+use crate::commands::submit::array_job::{ArrayJob, TaskKind};
 use crate::commands::submit::job_number::JobNumber;
 use crate::commands::submit::sbatch_option::SbatchOption;
 use crate::error::BenchError;
@@ -16,15 +16,18 @@ use crate::exit_status::BenchExitStatus;
 /// most as long as nobody has set another limit, and enough to keep a lab's nodes busy.
 const PARTS: NonZeroUsize = NonZeroUsize::MIN.saturating_add(99);
 
-/// Where the job lies in the folder of the campaign.
+/// Where the job lies in the folder of the campaign, or of the answers.
 const SCRIPT: &str = "slurm/job.sh";
 
 /// Arguments of `submit`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The folder of a campaign that was planned, on a disk that the nodes share
+    /// The folder of a campaign that was planned, or of a set of CauseBench, on a disk that the nodes share
     #[arg(value_name = "DIR")]
     folder: PathBuf,
+    /// Of a set: the folder of an entrant's answers
+    #[arg(long, value_name = "DIR", requires = "command")]
+    answers: Option<PathBuf>,
     /// What starts the tasks
     #[arg(long, value_enum, default_value_t = Engine::Slurm)]
     engine: Engine,
@@ -40,6 +43,10 @@ pub struct Arguments {
     /// Write the job, to be looked at or submitted by hand, and do not submit it
     #[arg(long)]
     dry_run: bool,
+    /// Of a set: the entrant's command. It answers those trials k of the manifest, counted from 0, for which k mod N is
+    /// K - 1, where the variable CAUSE_BENCH_PART is K/N
+    #[arg(last = true, value_name = "COMMAND", requires = "answers")]
+    command: Vec<String>,
 }
 
 /// What starts the tasks of a campaign on other machines.
@@ -51,8 +58,10 @@ enum Engine {
 
 /// Writes the job that makes what is left, and submits it.
 pub fn run(arguments: &Arguments) -> Result<BenchExitStatus, BenchError> {
-    let folder = CampaignFolder::open(&arguments.folder)?;
-    let left = folder.remaining(Part::WHOLE)?;
+    let left = match &arguments.answers {
+        Some(answers) => BenchManifest::open(&arguments.folder)?.remaining(answers),
+        None => CampaignFolder::open(&arguments.folder)?.remaining(Part::WHOLE)?,
+    };
     if left.is_empty() {
         print("0 trials left, nothing is submitted\n")?;
         return Ok(BenchExitStatus::Good);
@@ -68,9 +77,13 @@ fn to_slurm(arguments: &Arguments, left: &[usize]) -> Result<(), BenchError> {
     let numbers: BTreeSet<usize> = left.iter().map(part).collect();
     let tasks = numbers.len();
     let program = cli::program_file()?;
-    let root = std::path::absolute(&arguments.folder)?;
+    let (folder, task) = match &arguments.answers {
+        Some(answers) => (answers, TaskKind::Entrant { command: &arguments.command }),
+        None => (&arguments.folder, TaskKind::Work { program: &program }),
+    };
+    let root = std::path::absolute(folder)?;
     let script = ArrayJob {
-        program: &program,
+        task,
         folder: &root,
         numbers,
         parts: arguments.parts,
@@ -78,18 +91,33 @@ fn to_slurm(arguments: &Arguments, left: &[usize]) -> Result<(), BenchError> {
         options: &arguments.sbatch,
     }
     .script()?;
-    report::write_folder(&arguments.folder, &[(SCRIPT, script.as_bytes())])?;
+    report::write_folder(folder, &[(SCRIPT, script.as_bytes())])?;
 
-    let path = arguments.folder.join(SCRIPT);
+    let path = folder.join(SCRIPT);
     let said = format!("{} trials left, in {tasks} tasks", left.len());
-    let [folder, job] = [&arguments.folder, &path].map(|path| quote_argument(&display_path(path)));
     if arguments.dry_run {
+        let job = quote_argument(&display_path(&path));
         return Ok(print(&format!("{said}. To submit them:\n  sbatch {job}\n"))?);
     }
     let number = JobNumber::submit(&path)?;
     Ok(print(&format!(
-        "{said}, submitted as job {number}. To see how it goes on:\n  {}\n  \
-         plumbline-bench status {folder}\nAt the end:\n  plumbline-bench merge {folder}\n",
-        number.squeue()
+        "{said}, submitted as job {number}. To see how it goes on:\n  {}\n{}",
+        number.squeue(),
+        what_comes_next(arguments)
     ))?)
+}
+
+/// The commands that follow what was submitted.
+fn what_comes_next(arguments: &Arguments) -> String {
+    let quoted = |path: &Path| quote_argument(&display_path(path));
+    let folder = quoted(&arguments.folder);
+    match &arguments.answers {
+        Some(answers) => format!(
+            "At the end:\n  plumbline-bench score {folder} {} --truth FILE\n",
+            quoted(answers)
+        ),
+        None => format!(
+            "  plumbline-bench status {folder}\nAt the end:\n  plumbline-bench merge {folder}\n"
+        ),
+    }
 }
