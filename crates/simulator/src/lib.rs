@@ -36,7 +36,7 @@ pub use run::simulate::{
 pub use run::true_run::{TrueRow, TrueRun, simulate_truly};
 pub use run::write::{LogFormat, truth_schema, write};
 pub use sensors::{EffortSource, JointSensor, LinkEncoder, PositionSide, Sensors, VelocitySource};
-pub use simulator::{Simulator, Stepping};
+pub use simulator::{Order, Simulator, Stepping};
 pub use strangers::kind::StrangerKind;
 pub use strangers::spec::StrangerSpec;
 pub use strangers::truth::StrangerTruth;

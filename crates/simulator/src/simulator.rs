@@ -1,4 +1,6 @@
 use robot::{Machine, MachineFault, Reading, Robot};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::effects::described::described_effects;
 use crate::error::SimulatorError;
@@ -14,6 +16,17 @@ const RUNAWAY_SPEED: f64 = 200.0;
 /// less than 0.2 % `((omega dt)^2 / 24)`.
 const LARGEST_PHASE_STEP: f64 = 0.2;
 
+/// Power of the step with which the error of a simulation falls.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Order {
+    /// The engine is rapier, whose step is of first order.
+    #[default]
+    First,
+    /// The tree of bodies is worked out here, and its step is of second order.
+    Second,
+}
+
 /// How the engine is stepped.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stepping {
@@ -23,6 +36,8 @@ pub struct Stepping {
     pub steps_per_period: usize,
     /// Whether joints stop at their limits.
     pub stops: bool,
+    /// Power of the step with which the error falls.
+    pub order: Order,
 }
 
 /// A simulated arm, moved by rapier, changed by effects and measured by sensors.
@@ -88,7 +103,7 @@ impl Simulator {
             }
         }
         check_motors(&plant)?;
-        let mut arm = EngineArm::new(&plant, stepping.step_s)
+        let mut arm = EngineArm::new(&plant, stepping)
             .ok_or_else(|| SimulatorError::NoTree { robot: robot.name().to_owned() })?;
         let joints: Vec<Joint> = plant.robot.links().iter().map(Joint::of).collect();
         let mut springs: Vec<(usize, f64)> = effects.iter().flat_map(|e| e.springs()).collect();

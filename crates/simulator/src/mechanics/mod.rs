@@ -4,4 +4,6 @@ pub(crate) mod arm;
 pub(crate) mod engine;
 pub(crate) mod inject;
 pub(crate) mod plant;
+pub(crate) mod rapier;
 pub(crate) mod transmission;
+pub(crate) mod tree;

@@ -6,7 +6,7 @@ use robot::{Actuator, Robot, SensingSide, TorqueSource};
 use crate::error::SimulatorError;
 use crate::mechanics::transmission::Transmission;
 use crate::sensors::Sensors;
-use crate::simulator::{Simulator, Stepping};
+use crate::simulator::{Order, Simulator, Stepping};
 
 /// Positions (rad or m) and velocities (rad/s or m/s) as encoders report them, one per joint.
 pub(crate) struct EncoderState {
@@ -242,6 +242,7 @@ pub(crate) fn simulator_of_record(
         step_s: 1.0 / (rate_hz * steps),
         steps_per_period: steps as usize,
         stops: false,
+        order: Order::First,
     };
     let mut robot = robot.clone();
     for i in 0..robot.joint_count() {

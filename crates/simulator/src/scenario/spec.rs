@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::effects::spec::EffectSpec;
 use crate::sensors::{EffortSource, PositionSide, VelocitySource};
+use crate::simulator::Order;
 use crate::strangers::spec::StrangerSpec;
 
 /// A scenario: a robot, what is put into it, its sensors and the motions that are logged.
@@ -52,11 +53,18 @@ pub struct EngineSpec {
     pub step_ms: f64,
     /// Whether joints stop at their position limits.
     pub joint_stops: bool,
+    /// Power of the step with which the error falls: `first`, or `second`, which takes far fewer steps.
+    #[serde(skip_serializing_if = "is_first")]
+    pub order: Order,
+}
+
+fn is_first(order: &Order) -> bool {
+    *order == Order::First
 }
 
 impl Default for EngineSpec {
     fn default() -> Self {
-        Self { step_ms: 0.1, joint_stops: true }
+        Self { step_ms: 0.1, joint_stops: true, order: Order::First }
     }
 }
 
