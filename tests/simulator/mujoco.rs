@@ -10,7 +10,7 @@ use checks::arms::{wam, workspace_root};
 use nalgebra::{Matrix3, Vector3};
 use robot::{Inertia, Machine, Reading, Robot};
 use serde::Deserialize;
-use simulator::{Order, Plant, Sensors, Simulator, Stepping};
+use simulator::{Plant, Sensors, Simulator, StepOrder, Stepping};
 
 #[derive(Deserialize)]
 struct Golden {
@@ -96,7 +96,7 @@ fn largest_difference(golden: &Golden, case: &Case, step_s: f64) -> (f64, f64) {
         step_s,
         steps_per_period: (period_s / step_s).round() as usize,
         stops: false,
-        order: Order::First,
+        order: StepOrder::First,
     };
     let robot = robot_of(case);
     let mut arm = Simulator::new(&robot, Vec::new(), Sensors::perfect(7), stepping).unwrap();

@@ -8,13 +8,13 @@ use dynamics::Dynamics;
 use nalgebra::Vector3;
 use robot::{Inertia, Machine, Reading, Robot};
 use simulator::scenario::Scenario;
-use simulator::{Order, Sensors, Simulator, Stepping, simulate_noise_free};
+use simulator::{Sensors, Simulator, StepOrder, Stepping, simulate_noise_free};
 
 use crate::rig::{GRAVITY, STEPPING, flywheel, pendulum, run};
 use crate::scenario::{EFFECTS, document};
 use crate::strangers::STRANGERS;
 
-const SECOND: Stepping = Stepping { order: Order::Second, ..STEPPING };
+const SECOND: Stepping = Stepping { order: StepOrder::Second, ..STEPPING };
 
 fn perfect(robot: &Robot, stepping: Stepping) -> Simulator {
     Simulator::new(robot, Vec::new(), Sensors::perfect(robot.joint_count()), stepping).unwrap()

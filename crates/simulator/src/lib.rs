@@ -23,6 +23,7 @@ pub use effects::truth::Truth;
 pub use error::SimulatorError;
 pub use mechanics::inject::{Efforts, Inject, Moment};
 pub use mechanics::plant::Plant;
+pub use mechanics::step_order::StepOrder;
 pub use mechanics::transmission::Transmission;
 pub use replay::forward::{ForwardReplay, Windows, replay_torque};
 pub use replay::motion::{MotionReplay, replay_motion};
@@ -36,7 +37,7 @@ pub use run::simulate::{
 pub use run::true_run::{TrueRow, TrueRun, simulate_truly};
 pub use run::write::{LogFormat, truth_schema, write};
 pub use sensors::{EffortSource, JointSensor, LinkEncoder, PositionSide, Sensors, VelocitySource};
-pub use simulator::{Order, Simulator, Stepping};
+pub use simulator::{Simulator, Stepping};
 pub use strangers::kind::StrangerKind;
 pub use strangers::spec::StrangerSpec;
 pub use strangers::truth::StrangerTruth;

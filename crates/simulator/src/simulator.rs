@@ -1,12 +1,11 @@
 use robot::{Machine, MachineFault, Reading, Robot};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 use crate::effects::described::described_effects;
 use crate::error::SimulatorError;
 use crate::mechanics::arm::EngineArm;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
 use crate::mechanics::plant::Plant;
+use crate::mechanics::step_order::StepOrder;
 use crate::sensors::{EffortSource, PositionSide, Sensors};
 
 /// Speed above which a joint counts as run away (rad/s or m/s): ten times the speed of arms.
@@ -15,17 +14,6 @@ const RUNAWAY_SPEED: f64 = 200.0;
 /// Largest `omega dt` of a spring that is applied step by step: its frequency is then off by
 /// less than 0.2 % `((omega dt)^2 / 24)`.
 const LARGEST_PHASE_STEP: f64 = 0.2;
-
-/// Power of the step with which the error of a simulation falls.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Order {
-    /// The engine is rapier, whose step is of first order.
-    #[default]
-    First,
-    /// The tree of bodies is worked out here, and its step is of second order.
-    Second,
-}
 
 /// How the engine is stepped.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,7 +25,7 @@ pub struct Stepping {
     /// Whether joints stop at their limits.
     pub stops: bool,
     /// Power of the step with which the error falls.
-    pub order: Order,
+    pub order: StepOrder,
 }
 
 /// A simulated arm, moved by rapier, changed by effects and measured by sensors.
@@ -103,7 +91,7 @@ impl Simulator {
             }
         }
         check_motors(&plant)?;
-        let mut arm = EngineArm::new(&plant, stepping)
+        let mut arm = EngineArm::new(&plant, stepping.step_s, stepping.order)
             .ok_or_else(|| SimulatorError::NoTree { robot: robot.name().to_owned() })?;
         let joints: Vec<Joint> = plant.robot.links().iter().map(Joint::of).collect();
         let mut springs: Vec<(usize, f64)> = effects.iter().flat_map(|e| e.springs()).collect();

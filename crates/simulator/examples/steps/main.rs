@@ -13,7 +13,7 @@ use std::time::Instant;
 use nalgebra::{Isometry3, Point3};
 use robot::{Machine, MachineFault, Reading, Robot};
 use serde::{Deserialize, Serialize};
-use simulator::{Order, Sensors, Simulator, Stepping};
+use simulator::{Sensors, Simulator, StepOrder, Stepping};
 
 /// Time from one command to the next (s).
 const PERIOD_S: f64 = 2e-3;
@@ -47,7 +47,7 @@ struct Case {
 #[derive(Serialize)]
 struct Outcome<'a> {
     case: &'a str,
-    order: Order,
+    order: StepOrder,
     step_ms: f64,
     q_rad: Vec<f64>,
     tip_m: [f64; 3],
@@ -67,7 +67,7 @@ impl Case {
         Ok(robot)
     }
 
-    fn arm(&self, robot: &Robot, order: Order, step_ms: f64) -> Result<Simulator, String> {
+    fn arm(&self, robot: &Robot, order: StepOrder, step_ms: f64) -> Result<Simulator, String> {
         let step_s = 1e-3 * step_ms;
         let steps_per_period = (PERIOD_S / step_s).round() as usize;
         let stepping = Stepping { step_s, steps_per_period, stops: false, order };
@@ -105,7 +105,12 @@ impl Case {
         [tip.x, tip.y, tip.z]
     }
 
-    fn outcome(&self, robot: &Robot, order: Order, step_ms: f64) -> Result<Outcome<'_>, String> {
+    fn outcome(
+        &self,
+        robot: &Robot,
+        order: StepOrder,
+        step_ms: f64,
+    ) -> Result<Outcome<'_>, String> {
         let mut arm = self.arm(robot, order, step_ms)?;
         let steps = PERIODS as f64 * (1e3 * PERIOD_S / step_ms).round();
         let (mut quickest_s, begin) = (f64::INFINITY, Instant::now());
@@ -135,7 +140,7 @@ fn read_case(file: &str) -> Result<Case, String> {
 /// One second in one order and step, for a count of instructions.
 fn once(file: &str, order: &str, step_ms: f64) -> Result<(), String> {
     let case = read_case(file)?;
-    let order = if order == "second" { Order::Second } else { Order::First };
+    let order = if order == "second" { StepOrder::Second } else { StepOrder::First };
     let mut arm = case.arm(&case.robot()?, order, step_ms)?;
     case.second(&mut arm).map_err(|fault| fault.found)
 }
@@ -150,7 +155,7 @@ fn main() -> Result<(), String> {
     for file in arguments {
         let case = read_case(&file)?;
         let robot = case.robot()?;
-        for order in [Order::First, Order::Second] {
+        for order in [StepOrder::First, StepOrder::Second] {
             for step_ms in STEPS_MS {
                 match case.outcome(&robot, order, step_ms) {
                     Ok(outcome) => {

@@ -4,9 +4,9 @@ use crate::mechanics::engine::{Engine, EngineBody, Load, Push};
 use crate::mechanics::inject::Efforts;
 use crate::mechanics::plant::Plant;
 use crate::mechanics::rapier::RapierEngine;
+use crate::mechanics::step_order::StepOrder;
 use crate::mechanics::transmission::Transmission;
 use crate::mechanics::tree::leapfrog::TreeEngine;
-use crate::simulator::{Order, Stepping};
 
 /// The moving arm: maps joints to the engine's degrees of freedom.
 ///
@@ -42,7 +42,7 @@ struct Drive {
 
 impl EngineArm {
     /// Builds the engine's bodies from the plant; `None` if the engine cannot build such a tree.
-    pub fn new(plant: &Plant, stepping: Stepping) -> Option<Self> {
+    pub fn new(plant: &Plant, step_s: f64, order: StepOrder) -> Option<Self> {
         let mut bodies: Vec<EngineBody> = Vec::new();
         let mut link_body: Vec<usize> = Vec::new();
         let mut joints = Vec::new();
@@ -74,11 +74,11 @@ impl EngineArm {
             bodies.push(body);
         }
         let count = joints.len();
-        let (gravity, step_s) = (plant.robot.gravity_in_base(), stepping.step_s);
+        let gravity = plant.robot.gravity_in_base();
         Some(Self {
-            engine: match stepping.order {
-                Order::First => Box::new(RapierEngine::new(&bodies, gravity, step_s)?),
-                Order::Second => Box::new(TreeEngine::new(&bodies, gravity, step_s)?),
+            engine: match order {
+                StepOrder::First => Box::new(RapierEngine::new(&bodies, gravity, step_s)?),
+                StepOrder::Second => Box::new(TreeEngine::new(&bodies, gravity, step_s)?),
             },
             joints,
             link_body,

@@ -5,5 +5,6 @@ pub(crate) mod engine;
 pub(crate) mod inject;
 pub(crate) mod plant;
 pub(crate) mod rapier;
+pub(crate) mod step_order;
 pub(crate) mod transmission;
 pub(crate) mod tree;

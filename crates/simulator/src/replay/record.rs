@@ -4,9 +4,10 @@ use logs::{PreparedJoint, PreparedRun};
 use robot::{Actuator, Robot, SensingSide, TorqueSource};
 
 use crate::error::SimulatorError;
+use crate::mechanics::step_order::StepOrder;
 use crate::mechanics::transmission::Transmission;
 use crate::sensors::Sensors;
-use crate::simulator::{Order, Simulator, Stepping};
+use crate::simulator::{Simulator, Stepping};
 
 /// Positions (rad or m) and velocities (rad/s or m/s) as encoders report them, one per joint.
 pub(crate) struct EncoderState {
@@ -242,7 +243,7 @@ pub(crate) fn simulator_of_record(
         step_s: 1.0 / (rate_hz * steps),
         steps_per_period: steps as usize,
         stops: false,
-        order: Order::First,
+        order: StepOrder::First,
     };
     let mut robot = robot.clone();
     for i in 0..robot.joint_count() {

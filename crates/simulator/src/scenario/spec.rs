@@ -7,8 +7,8 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
 use crate::effects::spec::EffectSpec;
+use crate::mechanics::step_order::StepOrder;
 use crate::sensors::{EffortSource, PositionSide, VelocitySource};
-use crate::simulator::Order;
 use crate::strangers::spec::StrangerSpec;
 
 /// A scenario: a robot, what is put into it, its sensors and the motions that are logged.
@@ -55,16 +55,16 @@ pub struct EngineSpec {
     pub joint_stops: bool,
     /// Power of the step with which the error falls: `first`, or `second`, which takes far fewer steps.
     #[serde(skip_serializing_if = "is_first")]
-    pub order: Order,
+    pub order: StepOrder,
 }
 
-fn is_first(order: &Order) -> bool {
-    *order == Order::First
+fn is_first(order: &StepOrder) -> bool {
+    *order == StepOrder::First
 }
 
 impl Default for EngineSpec {
     fn default() -> Self {
-        Self { step_ms: 0.1, joint_stops: true, order: Order::First }
+        Self { step_ms: 0.1, joint_stops: true, order: StepOrder::First }
     }
 }
 

@@ -31,7 +31,7 @@ impl Hold {
 enum Place {
     Least,
     Negative,
-    Still,
+    Resting,
     Positive,
     Most,
 }
@@ -73,7 +73,7 @@ impl HeldSystem {
     pub fn solve(&mut self, matrix: &[f64], force: &[f64], holds: &[Hold]) {
         for (place, hold) in self.place.iter_mut().zip(holds) {
             // Where it was found last is where it is sought first.
-            if hold.dry <= 0.0 && matches!(*place, Place::Negative | Place::Still) {
+            if hold.dry <= 0.0 && matches!(*place, Place::Negative | Place::Resting) {
                 *place = Place::Positive;
             }
             let bounded = match *place {
@@ -82,25 +82,25 @@ impl HeldSystem {
                 _ => true,
             };
             if !bounded {
-                *place = if hold.dry > 0.0 { Place::Still } else { Place::Positive };
+                *place = if hold.dry > 0.0 { Place::Resting } else { Place::Positive };
             }
         }
         let rounds = ROUNDS_AT_ONCE + 20 * self.place.len();
         for round in 0..rounds {
             self.solve_in_place(matrix, force, holds);
-            let mut settled = true;
+            let mut fits = true;
             for (i, hold) in holds.iter().enumerate() {
                 let next = next_place(self.place[i], self.rate[i], self.held[i], hold);
                 if next == self.place[i] {
                     continue;
                 }
-                settled = false;
+                fits = false;
                 self.place[i] = next;
                 if round >= ROUNDS_AT_ONCE {
                     break;
                 }
             }
-            if settled {
+            if fits {
                 return;
             }
         }
@@ -118,7 +118,7 @@ impl HeldSystem {
         for (i, hold) in holds.iter().enumerate() {
             let given = match self.place[i] {
                 Place::Least => hold.least,
-                Place::Still => 0.0,
+                Place::Resting => 0.0,
                 Place::Most => hold.most,
                 Place::Negative | Place::Positive => {
                     self.held[i] =
@@ -203,12 +203,12 @@ fn next_place(place: Place, rate: f64, held: f64, hold: &Hold) -> Place {
     match place {
         Place::Positive | Place::Negative if rate > hold.most => Place::Most,
         Place::Positive | Place::Negative if rate < hold.least => Place::Least,
-        Place::Positive if hold.dry > 0.0 && rate < 0.0 => Place::Still,
-        Place::Negative if hold.dry > 0.0 && rate > 0.0 => Place::Still,
-        Place::Still if hold.most < 0.0 => Place::Most,
-        Place::Still if hold.least > 0.0 => Place::Least,
-        Place::Still if held > slack => Place::Negative,
-        Place::Still if held < -slack => Place::Positive,
+        Place::Positive if hold.dry > 0.0 && rate < 0.0 => Place::Resting,
+        Place::Negative if hold.dry > 0.0 && rate > 0.0 => Place::Resting,
+        Place::Resting if hold.most < 0.0 => Place::Most,
+        Place::Resting if hold.least > 0.0 => Place::Least,
+        Place::Resting if held > slack => Place::Negative,
+        Place::Resting if held < -slack => Place::Positive,
         // What pulls outwards at a bound is friction alone.
         Place::Most if hold.most > 0.0 && held > -hold.dry => Place::Positive,
         Place::Most if hold.most <= 0.0 && held > slack => Place::Negative,
