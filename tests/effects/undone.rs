@@ -4,11 +4,13 @@ use checks::arms::wam;
 use effects::{Compensation, FeedforwardEfforts};
 use robot::{Actuator, FrictionWave, Machine, Reading, Ripple, Robot, SensingSide, Stribeck};
 use simulator::{
-    EffortSource, JointSensor, PositionSide, Sensors, Simulator, Stepping, VelocitySource,
+    EffortSource, JointSensor, PositionSide, Sensors, Simulator, StepOrder, Stepping,
+    VelocitySource,
 };
 
 const PERIOD_S: f64 = 0.002;
-const STEPPING: Stepping = Stepping { step_s: 1e-4, steps_per_period: 20, stops: false };
+const STEPPING: Stepping =
+    Stepping { step_s: 1e-4, steps_per_period: 20, stops: false, order: StepOrder::First };
 
 /// A WAM whose drives rub, give way and are late.
 fn worn() -> Robot {

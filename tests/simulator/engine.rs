@@ -8,7 +8,7 @@ use checks::golden::State;
 use dynamics::Dynamics;
 use nalgebra::Vector3;
 use robot::{Inertia, Machine, Robot};
-use simulator::{Sensors, Simulator, Stepping};
+use simulator::{Sensors, Simulator, StepOrder, Stepping};
 
 use crate::rig::run;
 
@@ -20,7 +20,7 @@ fn perfect(robot: &Robot, stepping: Stepping) -> Simulator {
 }
 
 fn single(step_s: f64) -> Stepping {
-    Stepping { step_s, steps_per_period: 1, stops: false }
+    Stepping { step_s, steps_per_period: 1, stops: false, order: StepOrder::First }
 }
 
 /// Acceleration over one step: `(qd(dt) - qd(0)) / dt`.
@@ -112,8 +112,12 @@ fn oracle_a_passive_swing_keeps_its_energy_to_first_order_in_the_step() {
     let robot = wam();
     let start = [0.3, 1.2, -0.4, 1.0, 0.2, 0.5, 0.1];
     let lost = |step_s: f64| {
-        let stepping =
-            Stepping { step_s, steps_per_period: (2e-3 / step_s).round() as usize, stops: false };
+        let stepping = Stepping {
+            step_s,
+            steps_per_period: (2e-3 / step_s).round() as usize,
+            stops: false,
+            order: StepOrder::First,
+        };
         let mut arm = perfect(&robot, stepping);
         arm.start(&start);
         let rows = run(&mut arm, 1.0, |_| vec![0.0; 7]).unwrap();
@@ -137,7 +141,8 @@ fn oracle_friction_alone_stops_the_arm_and_does_the_work_of_its_energy() {
         actuator.coulomb_forward = level;
         actuator.coulomb_backward = level;
     }
-    let stepping = Stepping { step_s: 1e-4, steps_per_period: 1, stops: false };
+    let stepping =
+        Stepping { step_s: 1e-4, steps_per_period: 1, stops: false, order: StepOrder::First };
     let mut arm = perfect(&robot, stepping);
     let (q, qd) = ([0.0, 0.4, 0.2, 1.2, 0.0, 0.3, 0.0], [1.5, -1.0, 1.0, 1.5, -2.0, 2.0, 1.0]);
     arm.start_moving(&q, &qd);

@@ -4,7 +4,7 @@ use checks::arms::{base_from_links, wam};
 use dynamics::Dynamics;
 use nalgebra::{Matrix3, Unit, Vector3};
 use robot::{Actuator, Inertia, JointKind, Machine, Robot};
-use simulator::Stepping;
+use simulator::{StepOrder, Stepping};
 
 use crate::rig::{STEPPING, flywheel, link, run, simulator};
 
@@ -37,7 +37,8 @@ fn oracle_a_push_acts_on_every_joint_through_the_jacobian_of_its_link() {
     let force = Vector3::new(12.0, -7.0, 20.0);
     let q = [0.3, 1.2, -0.4, 1.0, 0.2, 0.5, 0.1];
     let tau = [1.0, -20.0, 2.0, 5.0, 0.3, 0.2, 0.1];
-    let stepping = Stepping { step_s: 1e-6, steps_per_period: 1, stops: false };
+    let stepping =
+        Stepping { step_s: 1e-6, steps_per_period: 1, stops: false, order: StepOrder::First };
     for carrier in [3, 6] {
         let name = &robot.links()[carrier].name;
         let effects = format!(

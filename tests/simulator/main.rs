@@ -24,6 +24,7 @@ mod joint_elasticity;
 mod load_dependent_friction;
 mod mistakes;
 mod mujoco;
+mod order;
 mod payload;
 mod position_dependent_friction;
 mod presliding_friction;

@@ -10,7 +10,7 @@ use checks::arms::{wam, workspace_root};
 use nalgebra::{Matrix3, Vector3};
 use robot::{Inertia, Machine, Reading, Robot};
 use serde::Deserialize;
-use simulator::{Plant, Sensors, Simulator, Stepping};
+use simulator::{Plant, Sensors, Simulator, StepOrder, Stepping};
 
 #[derive(Deserialize)]
 struct Golden {
@@ -92,8 +92,12 @@ fn robot_of(case: &Case) -> Robot {
 /// Largest differences of positions (rad) and velocities (rad/s) from MuJoCo's.
 fn largest_difference(golden: &Golden, case: &Case, step_s: f64) -> (f64, f64) {
     let period_s = golden.control_period_s;
-    let stepping =
-        Stepping { step_s, steps_per_period: (period_s / step_s).round() as usize, stops: false };
+    let stepping = Stepping {
+        step_s,
+        steps_per_period: (period_s / step_s).round() as usize,
+        stops: false,
+        order: StepOrder::First,
+    };
     let robot = robot_of(case);
     let mut arm = Simulator::new(&robot, Vec::new(), Sensors::perfect(7), stepping).unwrap();
     let reference = &golden.reference;

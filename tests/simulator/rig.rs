@@ -5,7 +5,7 @@ use robot::{
     Actuator, Inertia, Joint, JointKind, Limits, Link, Machine, MachineFault, Reading, Robot,
 };
 use simulator::effects::EffectSpec;
-use simulator::{Sensors, Simulator, SimulatorError, Stepping};
+use simulator::{Sensors, Simulator, SimulatorError, StepOrder, Stepping};
 
 pub const GRAVITY: f64 = 9.81;
 
@@ -62,7 +62,8 @@ pub fn link(
 }
 
 /// 500 Hz commands in steps of 0.1 ms, no stops.
-pub const STEPPING: Stepping = Stepping { step_s: 1e-4, steps_per_period: 20, stops: false };
+pub const STEPPING: Stepping =
+    Stepping { step_s: 1e-4, steps_per_period: 20, stops: false, order: StepOrder::First };
 
 /// The effects of a piece of TOML in the shape of a scenario, such as
 /// `[[effect]]` `coulomb_friction = { joint = "joint", level_nm = 1.0 }`.

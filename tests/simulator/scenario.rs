@@ -133,6 +133,7 @@ const MISTAKES: &[(&str, &str, &str)] = &[
     ("control.kp_nm_per_rad.j4_elbow_pitch=-1", "", "-1, a number from 0 to 1000000"),
     ("control.kd_nm_s_per_rad.j4_elbow_pitch=nan", "", "NaN, a number from 0 to 1000000"),
     ("sensors.position='midway'", "", "unknown name `midway`"),
+    ("engine.order='third'", "", "unknown name `third`"),
     ("sensors.effort='measured'", "", "unknown name `measured`"),
     ("sensors.velocity={ filtered_difference = { cutoff_hz = 300 } }", "300", "300, a number from 0.1 to 250"),
     ("sensors.position_resolution_rad.j4_elbow_pitch=0.2", "", "0.2, a number from 0 to 0.1"),

@@ -7,7 +7,7 @@ use std::path::Path;
 use criterion::{Criterion, criterion_group, criterion_main};
 use robot::{Machine, Reading, Robot};
 use simulator::effects::EffectSpec;
-use simulator::{Sensors, Simulator, Stepping};
+use simulator::{Sensors, Simulator, StepOrder, Stepping};
 
 const FRICTION: [f64; 7] = [1.6, 0.53, 0.37, 0.64, 0.036, 0.071, 0.0125];
 const KP: [f64; 7] = [200.0, 300.0, 100.0, 100.0, 10.0, 10.0, 2.5];
@@ -76,7 +76,8 @@ fn speed(criterion: &mut Criterion) {
         ("two elastic joints, dry friction", friction(&robot) + &elastic()),
         ("backlash at two joints, dry friction", friction(&robot) + &loose()),
     ];
-    let stepping = Stepping { step_s: 1e-4, steps_per_period: 20, stops: false };
+    let stepping =
+        Stepping { step_s: 1e-4, steps_per_period: 20, stops: false, order: StepOrder::First };
     let mut group = criterion.benchmark_group("one second of the WAM");
     for (name, toml) in arms {
         let injected: Result<Vec<_>, _> = effects(&toml).iter().map(|e| e.inject(&robot)).collect();

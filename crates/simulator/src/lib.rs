@@ -23,6 +23,7 @@ pub use effects::truth::Truth;
 pub use error::SimulatorError;
 pub use mechanics::inject::{Efforts, Inject, Moment};
 pub use mechanics::plant::Plant;
+pub use mechanics::step_order::StepOrder;
 pub use mechanics::transmission::Transmission;
 pub use replay::forward::{ForwardReplay, Windows, replay_torque};
 pub use replay::motion::{MotionReplay, replay_motion};

@@ -5,6 +5,7 @@ use crate::error::SimulatorError;
 use crate::mechanics::arm::EngineArm;
 use crate::mechanics::inject::{Efforts, Inject, Moment};
 use crate::mechanics::plant::Plant;
+use crate::mechanics::step_order::StepOrder;
 use crate::sensors::{EffortSource, PositionSide, Sensors};
 
 /// Speed above which a joint counts as run away (rad/s or m/s): ten times the speed of arms.
@@ -23,6 +24,8 @@ pub struct Stepping {
     pub steps_per_period: usize,
     /// Whether joints stop at their limits.
     pub stops: bool,
+    /// Power of the step with which the error falls.
+    pub order: StepOrder,
 }
 
 /// A simulated arm, moved by rapier, changed by effects and measured by sensors.
@@ -88,7 +91,7 @@ impl Simulator {
             }
         }
         check_motors(&plant)?;
-        let mut arm = EngineArm::new(&plant, stepping.step_s)
+        let mut arm = EngineArm::new(&plant, stepping.step_s, stepping.order)
             .ok_or_else(|| SimulatorError::NoTree { robot: robot.name().to_owned() })?;
         let joints: Vec<Joint> = plant.robot.links().iter().map(Joint::of).collect();
         let mut springs: Vec<(usize, f64)> = effects.iter().flat_map(|e| e.springs()).collect();

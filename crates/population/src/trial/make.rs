@@ -220,7 +220,7 @@ impl Draft {
         let spec = ScenarioSpec {
             robot: self.truth_file.clone(),
             seed: self.seed >> 1,
-            engine: EngineSpec { step_ms, joint_stops: false },
+            engine: EngineSpec { step_ms, joint_stops: false, ..EngineSpec::default() },
             control: self.bench.control.clone(),
             sensors: self.log.sensors(&self.bench.sensors),
             effect: [self.friction(), hidden.causes.clone()].concat(),

@@ -3,7 +3,10 @@ use nalgebra::Isometry3;
 use crate::mechanics::engine::{Engine, EngineBody, Load, Push};
 use crate::mechanics::inject::Efforts;
 use crate::mechanics::plant::Plant;
+use crate::mechanics::rapier::RapierEngine;
+use crate::mechanics::step_order::StepOrder;
 use crate::mechanics::transmission::Transmission;
+use crate::mechanics::tree::leapfrog::TreeEngine;
 
 /// The moving arm: maps joints to the engine's degrees of freedom.
 ///
@@ -11,7 +14,7 @@ use crate::mechanics::transmission::Transmission;
 /// has two: the motor's angle `theta` of a massless body with the rotor's inertia, and the
 /// deflection `delta`, so that `q = theta + delta`.
 pub(crate) struct EngineArm {
-    engine: Engine,
+    engine: Box<dyn Engine>,
     joints: Vec<Drive>,
     /// Body of each link.
     link_body: Vec<usize>,
@@ -39,7 +42,7 @@ struct Drive {
 
 impl EngineArm {
     /// Builds the engine's bodies from the plant; `None` if the engine cannot build such a tree.
-    pub fn new(plant: &Plant, step_s: f64) -> Option<Self> {
+    pub fn new(plant: &Plant, step_s: f64, order: StepOrder) -> Option<Self> {
         let mut bodies: Vec<EngineBody> = Vec::new();
         let mut link_body: Vec<usize> = Vec::new();
         let mut joints = Vec::new();
@@ -71,8 +74,12 @@ impl EngineArm {
             bodies.push(body);
         }
         let count = joints.len();
+        let gravity = plant.robot.gravity_in_base();
         Some(Self {
-            engine: Engine::new(&bodies, plant.robot.gravity_in_base(), step_s)?,
+            engine: match order {
+                StepOrder::First => Box::new(RapierEngine::new(&bodies, gravity, step_s)?),
+                StepOrder::Second => Box::new(TreeEngine::new(&bodies, gravity, step_s)?),
+            },
             joints,
             link_body,
             load: Load::none(bodies.len()),
@@ -132,7 +139,7 @@ impl EngineArm {
     pub fn step(&mut self, efforts: &Efforts) {
         self.load.clear();
         for (i, joint) in self.joints.iter().enumerate() {
-            joint.add(&self.engine, efforts, i, &mut self.load);
+            joint.add(self.engine.as_ref(), efforts, i, &mut self.load);
         }
         let body = |p: &Push| Push { body: self.link_body[p.body], ..*p };
         self.load.pushes.extend(efforts.pushes.iter().map(body));
@@ -210,7 +217,7 @@ impl Drive {
     /// Adds the efforts on joint `i` to the engine's load.
     ///
     /// A torque on the link does work on `q = theta + delta`, so it acts on both degrees of freedom.
-    fn add(&self, engine: &Engine, efforts: &Efforts, i: usize, load: &mut Load) {
+    fn add(&self, engine: &dyn Engine, efforts: &Efforts, i: usize, load: &mut Load) {
         let deflection = self.deflection.map_or(0.0, |d| engine.q()[d]);
         let link = efforts.link[i] + self.spring(engine.q()[self.motor] + deflection);
         load.effort[self.motor] = motor_effort(efforts, i) + link;

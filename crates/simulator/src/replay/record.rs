@@ -4,6 +4,7 @@ use logs::{PreparedJoint, PreparedRun};
 use robot::{Actuator, Robot, SensingSide, TorqueSource};
 
 use crate::error::SimulatorError;
+use crate::mechanics::step_order::StepOrder;
 use crate::mechanics::transmission::Transmission;
 use crate::sensors::Sensors;
 use crate::simulator::{Simulator, Stepping};
@@ -242,6 +243,7 @@ pub(crate) fn simulator_of_record(
         step_s: 1.0 / (rate_hz * steps),
         steps_per_period: steps as usize,
         stops: false,
+        order: StepOrder::First,
     };
     let mut robot = robot.clone();
     for i in 0..robot.joint_count() {

@@ -223,6 +223,7 @@ impl Checker<'_> {
             step_s,
             steps_per_period: steps.round() as usize,
             stops: self.spec.engine.joint_stops,
+            order: self.spec.engine.order,
         })
     }
 

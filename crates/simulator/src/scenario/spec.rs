@@ -7,6 +7,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
 use crate::effects::spec::EffectSpec;
+use crate::mechanics::step_order::StepOrder;
 use crate::sensors::{EffortSource, PositionSide, VelocitySource};
 use crate::strangers::spec::StrangerSpec;
 
@@ -52,11 +53,18 @@ pub struct EngineSpec {
     pub step_ms: f64,
     /// Whether joints stop at their position limits.
     pub joint_stops: bool,
+    /// Power of the step with which the error falls: `first`, or `second`, which takes far fewer steps.
+    #[serde(skip_serializing_if = "is_first")]
+    pub order: StepOrder,
+}
+
+fn is_first(order: &StepOrder) -> bool {
+    *order == StepOrder::First
 }
 
 impl Default for EngineSpec {
     fn default() -> Self {
-        Self { step_ms: 0.1, joint_stops: true }
+        Self { step_ms: 0.1, joint_stops: true, order: StepOrder::First }
     }
 }
 
