@@ -162,7 +162,7 @@ mod tests {
         let told = |q: &[f64]| frequent_spikes(&run, 0, 0, q, &t).map(|o| o.kind);
         assert_eq!(told(clean), None);
         for every in [2, 3, 10, 50] {
-            let hit = |k: usize| scattered(k) % every == 0;
+            let hit = |k: usize| scattered(k).is_multiple_of(every);
             let spoilt = |height: f64| -> Vec<f64> {
                 let side = |k: usize| if scattered(k) & 256 == 0 { height } else { -height };
                 let rows = clean.iter().enumerate();

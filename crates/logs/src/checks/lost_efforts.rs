@@ -212,12 +212,12 @@ mod tests {
     /// A drive that is switched from row to row, and one whose commands alternate.
     #[test]
     fn efforts_that_alternate_have_no_spikes() {
-        let chatter = |k: usize| if k % 2 == 0 { 3.0 } else { -3.0 };
+        let chatter = |k: usize| if k.is_multiple_of(2) { 3.0 } else { -3.0 };
         let chattering: Vec<f64> =
             swing().iter().enumerate().map(|(k, x)| x + chatter(k)).collect();
         assert_eq!(lost_beyond(Some(20.0), &chattering), [0_usize; 0]);
         // A command that follows the steps of a coarse encoder.
-        let kick = |k: usize| if k % 3 == 0 { 0.2 } else { 0.0 };
+        let kick = |k: usize| if k.is_multiple_of(3) { 0.2 } else { 0.0 };
         let kicked: Vec<f64> = (0..2000).map(|k| 0.001 * (k as f64).sin() + kick(k)).collect();
         assert_eq!(lost_beyond(Some(20.0), &kicked), [0_usize; 0]);
     }
