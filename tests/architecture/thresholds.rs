@@ -109,6 +109,7 @@ const NUMERICAL: &[(&str, &str, &str, &str)] = &[
     ("inspection", "scale", "LOOKED_AT", "samples of a mean"),
     ("inspection", "sentence", "MOST_STRETCHES", "length of a list in a sentence"),
     ("inspection", "sentence", "MOST_ZEROS", "length of a list in a sentence"),
+    ("inspection", "spikes", "NORMAL_QUANTILE_55", "quantile of the normal distribution at .55"),
     ("inspection", "zeros", "RIDGE", "rounding of least squares"),
 ];
 

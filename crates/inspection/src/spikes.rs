@@ -87,7 +87,9 @@ pub(crate) fn frequent_spikes(
     let returns = |k: usize| {
         let (before, after) = (position[k - 1], position[k + 1]);
         (after - before).abs() < 0.5 * d[k].abs()
-            && [d[k - 1], d[k + 1]].iter().all(|beside| beside * d[k] < 0.25 * d[k] * d[k])
+            && [d[k - 1], d[k + 1]]
+                .iter()
+                .all(|beside| beside * d[k] < t.moments.beside_spike * d[k] * d[k])
     };
     let found: Vec<usize> = (1..n - 1).filter(|&k| d[k].abs() > least && returns(k)).collect();
     if found.len() <= n / t.moments.rare_spike {

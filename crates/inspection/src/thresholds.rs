@@ -260,6 +260,8 @@ pub struct MomentThresholds {
     pub rare_spike: usize,
     /// Least height of frequent spikes over the noise of the position (1).
     pub spike_over_noise: f64,
+    /// Second difference beside a frequent spike on its own side, as a share of it, up to which it returns (1).
+    pub beside_spike: f64,
     /// Part of the rows that may be spikes or beside one: one in so many.
     pub bulk_of_rows: usize,
     /// Least height of a spike, in steps of the encoder (1).
@@ -293,6 +295,7 @@ impl Default for MomentThresholds {
             spike: 8.0,
             rare_spike: 100,
             spike_over_noise: 10.0,
+            beside_spike: 0.25,
             bulk_of_rows: 20,
             spike_counts: 5.0,
             least_spike: 2e-3,

@@ -9,9 +9,6 @@ use crate::regression::gram::Information;
 use crate::regression::problem::HypothesisSet;
 use crate::thresholds::sizes::SizeThresholds;
 
-/// Thickness of a body along every axis, as a share of its distance from the origin of the link that holds it.
-const THICKNESS: f64 = 0.03;
-
 /// Weights of a model with every inertia physical.
 ///
 /// The links of the model are profiled against all other columns, then moved to the physically consistent inertias
@@ -95,7 +92,7 @@ fn consistent_change(
     }
     let indices: Vec<usize> = links.iter().map(|l| l.link).collect();
     let fit = ConsistentFit {
-        robot: &with_held_bodies(robot, links, &estimate),
+        robot: &with_held_bodies(robot, links, &estimate, t.held_thickness),
         information: &information,
         estimate: &estimate,
         links: &indices,
@@ -116,11 +113,17 @@ fn consistent_change(
 ///
 /// The inertia of a link says nothing of what it holds, which may weigh many times as much. A change by a payload is
 /// therefore measured from a body of the estimated mass and centre; without a positive mass, from the link.
-fn with_held_bodies(robot: &Robot, links: &[LinkOfModel], estimate: &[f64]) -> Robot {
+fn with_held_bodies(
+    robot: &Robot,
+    links: &[LinkOfModel],
+    estimate: &[f64],
+    thickness: f64,
+) -> Robot {
     let mut robot = robot.clone();
     let (of_links, _) = estimate.as_chunks::<PARAMETERS_PER_LINK>();
     for LinkOfModel { link, .. } in links.iter().filter(|l| l.holds) {
-        let body = of_links.get(*link).and_then(|pi| thicken(&Inertia::from_parameters(pi)));
+        let body = of_links.get(*link);
+        let body = body.and_then(|pi| thicken(&Inertia::from_parameters(pi), thickness));
         if let (Some(body), Some(link)) = (body, robot.link_mut(*link)) {
             link.inertia = body;
         }
@@ -128,13 +131,14 @@ fn with_held_bodies(robot: &Robot, links: &[LinkOfModel], estimate: &[f64]) -> R
     robot
 }
 
-/// The body of the same mass and centre of mass that has at least the [`THICKNESS`] along every axis. `None` where the
+/// The body of the same mass and centre of mass that has at least a thickness along every axis, a share of its distance
+/// from the origin. `None` where the
 /// mass is not positive.
 ///
 /// ```text
-/// S_com = tr(I_com)/2 1 - I_com >= m (THICKNESS r)^2,   m r^2 = m |c|^2 + tr|S_com|
+/// S_com = tr(I_com)/2 1 - I_com >= m (thickness r)^2,   m r^2 = m |c|^2 + tr|S_com|
 /// ```
-fn thicken(body: &Inertia) -> Option<Inertia> {
+fn thicken(body: &Inertia, thickness: f64) -> Option<Inertia> {
     if body.mass.is_nan() || body.mass <= 0.0 {
         return None;
     }
@@ -142,7 +146,7 @@ fn thicken(body: &Inertia) -> Option<Inertia> {
     let mut moments = SymmetricEigen::new(Matrix3::identity() * half - body.about_com);
     let about_origin =
         moments.eigenvalues.abs().sum() + body.mass * body.com_in_link.norm_squared();
-    let least = THICKNESS * THICKNESS * about_origin;
+    let least = thickness * thickness * about_origin;
     moments.eigenvalues.apply(|value| *value = value.max(least));
     let about_com = Matrix3::identity() * moments.eigenvalues.sum() - moments.recompose();
     (least > 0.0).then_some(Inertia { about_com, ..body.clone() })

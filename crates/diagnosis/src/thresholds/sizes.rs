@@ -17,6 +17,9 @@ pub struct SizeThresholds {
     /// Weight of the divergence from the described inertias, in units of the log-likelihood (1): a pseudo-inertia that
     /// differs by its own size counts like one standard deviation.
     pub inertia_prior: f64,
+    /// Thickness along every axis of the body from which a payload is measured, as a share of its distance from the origin
+    /// of the link that holds it (1): that of a compact tool.
+    pub held_thickness: f64,
     /// Least standard deviation of a direction of the inertial parameters, in those of its prior (1): a thousandth of
     /// the prior is sharper than any model of rigid bodies is true.
     pub sharpest_inertia: f64,
@@ -32,6 +35,7 @@ impl Default for SizeThresholds {
             detected: 3.65,
             missed_form: 0.5,
             inertia_prior: 1.0,
+            held_thickness: 0.03,
             sharpest_inertia: 1e-3,
         }
     }

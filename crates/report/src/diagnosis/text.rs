@@ -45,14 +45,42 @@ pub fn text(report: &Report) -> String {
         block(&mut out, report, index, joint);
     }
     out.push_str(if inadequate.is_empty() { "" } else { "\n" });
-    for (index, joint) in inadequate {
-        block(&mut out, report, index, joint);
-    }
+    inadequate_joints(&mut out, report, inadequate);
     also_fitted(&mut out, report);
     residual(&mut out, report);
     motions(&mut out, &diagnosis.findings);
     push_warnings(&mut out, &diagnosis.warnings);
     out
+}
+
+/// Joints with inadequate data, those together that have the same reason.
+fn inadequate_joints(out: &mut String, report: &Report, mut left: Vec<(usize, &JointReport)>) {
+    let because =
+        |joint: &JointReport| JointUnits::of(report.robot, &joint.name).with_unit(&joint.because);
+    while let Some(&(index, first)) = left.first() {
+        let reason = because(first);
+        let (same, others): (Vec<_>, Vec<_>) =
+            left.into_iter().partition(|(_, joint)| because(joint) == reason);
+        left = others;
+        if same.len() == 1 {
+            block(out, report, index, first);
+            continue;
+        }
+        let verdict = first.verdict;
+        let style = style_of(verdict);
+        let names: Vec<String> = same.iter().map(|(_, joint)| joint.name.clone()).collect();
+        let all = same.len() == report.diagnosis.joints.len();
+        let names = if all { "all joints".to_owned() } else { join_names(&names) };
+        for line in wrap(&names, TERMINAL_WIDTH) {
+            out.push_str(&format!("{BOLD}{line}{BOLD:#}\n"));
+        }
+        out.pop();
+        out.push_str(&format!(" {style}{}{style:#}\n", verdict.words()));
+        note(out, &reason);
+        for (_, joint) in &same {
+            findings_of(report, Some(&joint.name)).iter().for_each(|f| finding(out, f));
+        }
+    }
 }
 
 /// Whether nothing is left open at a joint.
@@ -418,5 +446,26 @@ warning: elbow: quantised in steps of 0.01 N m
             "shoulder           data inadequate\n    the reason in a sentence\n  FR02 Coulomb";
         let elbow = plain.find("\nelbow ");
         assert!(elbow.is_some() && plain.find(block) > elbow, "{plain}");
+    }
+
+    #[test]
+    fn joints_that_lack_data_for_one_reason_are_told_together() {
+        let mut sample = sample::arm();
+        sample.diagnosis.findings.clear();
+        for joint in &mut sample.diagnosis.joints {
+            joint.verdict = Verdict::DataInadequate;
+            joint.because = "the position of joint elbow is off".to_owned();
+        }
+        let plain = without_escapes(&text(&sample.report()));
+        assert_eq!(plain.matches("the position of joint elbow is off").count(), 1, "{plain}");
+        let names = sample.diagnosis.joints.iter().map(|joint| joint.name.clone());
+        let names = names.collect::<Vec<_>>();
+        let block = "all joints data inadequate\n    the position of joint elbow is off\n";
+        assert!(plain.contains(block), "{plain}");
+        sample.diagnosis.joints[0].verdict = Verdict::Consistent;
+        sample.diagnosis.joints[0].because = "fits".to_owned();
+        let plain = without_escapes(&text(&sample.report()));
+        assert_eq!(plain.matches("the position of joint elbow is off").count(), 1, "{plain}");
+        assert!(names.iter().all(|name| plain.contains(name.as_str())), "{plain}");
     }
 }
