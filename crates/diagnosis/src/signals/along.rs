@@ -127,8 +127,8 @@ impl<'a> Along<'a> {
         Ok(self)
     }
 
-    /// One where joint `j` moves, else zero. Also zero are the first sample and those within reach of the decimation filter
-    /// from a standstill, the end of the run, which a late torque needs, and the start of a noisy run.
+    /// One where joint `j` moves, else zero. Also zero are the samples within reach of the decimation filter from a
+    /// standstill, the end of the run, which a late torque needs, and the start of a noisy run.
     fn moving_mask(&self, j: usize) -> Vec<f64> {
         let thins = self.strides[0] > 1;
         let margin = if thins { self.reach(THINNING * self.cutoff_hz) } else { 0 };
@@ -193,13 +193,12 @@ impl<'a> Along<'a> {
 
     /// Whether a sample of the motion is more than `margin` away from samples at which a joint `rests`. It must also be
     /// out of reach of the low-pass from the end of the run, which a late torque needs, and from the start of a noisy
-    /// run, and not the first.
+    /// run.
     fn is_away(&self, rests: &[bool], margin: usize) -> Vec<bool> {
         let end = self.reach(self.cutoff_hz).min(rests.len());
         let mut away = vec![true; rests.len()];
         away[rests.len() - end..].fill(false);
-        // The low-pass is reflected about the first sample, whose noise would stay whole.
-        away[..if self.noisy { end } else { end.min(1) }].fill(false);
+        away[..if self.noisy { end } else { 0 }].fill(false);
         for (t, _) in rests.iter().enumerate().filter(|(_, rests)| **rests) {
             let end = (t + margin + 1).min(away.len());
             away[t.saturating_sub(margin)..end].fill(false);
