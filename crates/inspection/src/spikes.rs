@@ -64,8 +64,8 @@ pub(crate) fn spikes(
 /// ```
 ///
 /// Up to a share of half, a tenth of the rows and their neighbours are free of spikes. Their distances give the noise
-/// `sigma`, at half ten times too large. The neighbours of a spike are off in the other direction, where those of a turn of the motion are off in the
-/// same, and those of a value that is held are no nearer to one another than to it.
+/// `sigma`, at half ten times too large. The neighbours of a spike are off in the other direction, those of a turn of the
+/// motion in the same. Those of a value that is held are no nearer to one another than to it.
 pub(crate) fn frequent_spikes(
     run: &Run,
     index: usize,

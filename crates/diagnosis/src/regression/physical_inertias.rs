@@ -47,7 +47,7 @@ pub(crate) fn physical_inertias(
     weights
 }
 
-/// A link of a model: its index, its ten columns, and whether they are those of a body that it holds.
+/// A link of a model: its index, its ten columns, and whether they are those of a payload that it holds.
 struct LinkOfModel {
     link: usize,
     columns: Vec<usize>,
@@ -132,8 +132,7 @@ fn with_held_bodies(
 }
 
 /// The body of the same mass and centre of mass that has at least a thickness along every axis, a share of its distance
-/// from the origin. `None` where the
-/// mass is not positive.
+/// from the origin. `None` where the mass is not positive.
 ///
 /// ```text
 /// S_com = tr(I_com)/2 1 - I_com >= m (thickness r)^2,   m r^2 = m |c|^2 + tr|S_com|
