@@ -103,10 +103,8 @@ impl Design {
         hypotheses: &[Hypothesis],
     ) -> Result<Self, LogError> {
         let along = log.along(robot, &frame)?;
-        let readings: Vec<Readings> = along
-            .par_iter()
-            .map(|along| Readings::new(along, log.response))
-            .collect::<Result<_, LogError>>()?;
+        let readings: Vec<Readings> =
+            along.par_iter().map(|along| Readings::new(along, log.response)).collect();
         let mut design = Self::assemble(
             robot,
             log,
@@ -145,8 +143,7 @@ impl Design {
         let scale = Scale::of_logs(robot, log.prepared);
         let evaluated =
             |(along, readings)| Evaluated::new(along, readings, hypotheses, log.response);
-        let mut evaluated: Vec<Evaluated> =
-            along.par_iter().zip(readings).map(evaluated).collect::<Result<_, LogError>>()?;
+        let mut evaluated: Vec<Evaluated> = along.par_iter().zip(readings).map(evaluated).collect();
         if let Some(described) = log.described {
             let described = log.along(described, &frame)?;
             evaluated.iter_mut().zip(&described).for_each(|(e, along)| e.measure_from(along));

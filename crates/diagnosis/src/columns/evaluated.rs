@@ -1,5 +1,4 @@
 use effects::{EffectColumn, Hypothesis};
-use logs::LogError;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
@@ -31,7 +30,7 @@ impl Evaluated {
         readings: Readings,
         hypotheses: &[Hypothesis],
         response: Response,
-    ) -> Result<Self, LogError> {
+    ) -> Self {
         let motion = &along.motion;
         let joints = motion.effort.len();
         let columns = |h: &Hypothesis| match response {
@@ -43,10 +42,10 @@ impl Evaluated {
             Response::Twist => (0..joints).map(|j| along.finish(j, motion.twist(j))).collect(),
         };
         let known = match response {
-            Response::Effort => along.known_effort(&minus(&readings.measured, &nominal))?,
+            Response::Effort => along.known_effort(&minus(&readings.measured, &nominal)),
             Response::Twist => vec![Vec::new(); joints],
         };
-        Ok(Self {
+        Self {
             columns: hypotheses.par_iter().map(columns).collect(),
             rate_hz: along.rate_hz,
             name: along.name().to_owned(),
@@ -55,7 +54,7 @@ impl Evaluated {
             known,
             nominal,
             state: [&motion.q, &motion.qd, &motion.qdd].map(|s| along.thin(s)),
-        })
+        }
     }
 
     /// Compares the efforts with those of the robot as it was `described`. The difference between the two robots

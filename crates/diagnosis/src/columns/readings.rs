@@ -1,5 +1,3 @@
-use logs::LogError;
-
 use crate::signals::along::Along;
 use crate::signals::response::Response;
 
@@ -18,20 +16,20 @@ pub(crate) struct Readings {
 
 impl Readings {
     /// Reads a run.
-    pub fn new(along: &Along, response: Response) -> Result<Self, LogError> {
+    pub fn new(along: &Along, response: Response) -> Self {
         let joints = 0..along.motion.effort.len();
         let samples = along.time().len();
         let is_informative = |j: usize| match response {
             Response::Effort => along.is_informative(j),
             Response::Twist => vec![true; samples],
         };
-        Ok(Self {
+        Self {
             measured: match response {
-                Response::Effort => along.measured_effort()?,
-                Response::Twist => along.twists()?,
+                Response::Effort => along.measured_effort(),
+                Response::Twist => along.twists(),
             },
             is_informative: joints.clone().map(is_informative).collect(),
             slides: joints.map(|j| along.slides(j)).collect(),
-        })
+        }
     }
 }

@@ -54,8 +54,7 @@ struct Trial {
 }
 
 fn trial(runs: &[Along], left: &LinearRest, limit: &Limit) -> Result<Trial, LogError> {
-    let beyond: Vec<Vec<f64>> =
-        runs.iter().map(|run| run.beyond(limit)).collect::<Result<_, _>>()?;
+    let beyond: Vec<Vec<f64>> = runs.iter().map(|run| run.beyond(limit)).collect();
     let lengths: Vec<usize> = beyond.iter().map(Vec::len).collect();
     let beyond = DVector::from_vec(beyond.concat()).component_mul(&left.is_informative);
     let clamped = &left.y - &beyond;

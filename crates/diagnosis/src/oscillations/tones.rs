@@ -109,7 +109,8 @@ fn rests<'a>(robot: &Robot, wide: &'a Prepared, log: &Log<'a>) -> Result<Vec<Res
     let frame = &Frame::of_logs(wide);
     let of = |run| {
         let signals = &log.thresholds.signals;
-        Rest::new(Along::new(robot, frame, run, wide.cutoff_hz, log.limits, signals)?)
+        let along = Along::new(robot, frame, run, wide.cutoff_hz, log.limits, signals)?;
+        Ok(Rest::new(along.with_even_noise()))
     };
     wide.runs.iter().map(of).collect()
 }

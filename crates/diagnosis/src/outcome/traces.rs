@@ -52,8 +52,8 @@ pub(crate) fn traces(inputs: &Inputs, tested: &TestedFindings) -> Result<Vec<Run
         .collect::<Result<_, LogError>>()?;
     let run = |(r, along): (usize, &Along)| {
         let design = &inputs.design.runs[r];
-        let measured = along.measured_effort()?;
-        let known = along.known_effort(&minus(&measured, &along.expected_effort()))?;
+        let measured = along.measured_effort();
+        let known = along.known_effort(&minus(&measured, &along.expected_effort()));
         let joint = |(j, measured): (usize, Vec<f64>)| {
             let [position, velocity, _] = design.joints[j].state.clone();
             let folds: Vec<&[f64]> = found.iter().map(|of| of[r][j].as_slice()).collect();
@@ -63,7 +63,7 @@ pub(crate) fn traces(inputs: &Inputs, tested: &TestedFindings) -> Result<Vec<Run
             JointTraces { position, velocity, measured, nominal: nominal[r][j].clone(), extended }
         };
         let joints = measured.into_iter().enumerate().map(joint).collect();
-        Ok(RunTraces { name: design.name.clone(), time: design.time.clone(), joints })
+        RunTraces { name: design.name.clone(), time: design.time.clone(), joints }
     };
-    about.iter().enumerate().map(run).collect()
+    Ok(about.iter().enumerate().map(run).collect())
 }

@@ -107,23 +107,37 @@ impl<'a> Dataset<'a> {
     }
 
     /// The same, where one hypothesis may not enter, with the weights of a problem to begin with.
+    ///
+    /// Every selection has the weights of the noise that the selection before it left. Where two answers lead to each
+    /// other, the better one is taken, in the mean of the weightings by both.
     fn select_in(
         &self,
-        mut problem: Problem<'a>,
-        mut model: HypothesisSet,
+        problem: Problem<'a>,
+        start: HypothesisSet,
         barred: Option<usize>,
     ) -> Selected<'a> {
-        for round in 0..ROUNDS {
-            let barred = barred.into_iter().collect();
-            let next = Selection { barred, ..self.selection(&problem) }.run(model.clone());
-            // The weights are those of the noise that this model left before.
-            if round > 0 && next == model {
+        let barred: HypothesisSet = barred.into_iter().collect();
+        let select = |problem: &Problem, model: HypothesisSet| {
+            Selection { barred: barred.clone(), ..self.selection(problem) }.run(model)
+        };
+        let weighted = |problem: &Problem<'a>, model: HypothesisSet| Selected {
+            problem: self.weigh(problem, &model),
+            model,
+        };
+        let mut now = weighted(&problem, select(&problem, start));
+        let mut before: Option<Selected> = None;
+        for _ in 1..ROUNDS {
+            let next = select(&now.problem, now.model.clone());
+            if next == now.model {
                 break;
             }
-            model = next;
-            problem = self.weigh(&problem, &model);
+            if let Some(before) = before.filter(|before| before.model == next) {
+                return if self.gain_over(&now, &before) > 0.0 { before } else { now };
+            }
+            let next = weighted(&now.problem, next);
+            before = Some(std::mem::replace(&mut now, next));
         }
-        Selected { problem, model }
+        now
     }
 
     /// A problem weighted by the noise that a model leaves.

@@ -4,6 +4,7 @@ use nalgebra::Complex;
 use rayon::prelude::*;
 use robot::Robot;
 
+use crate::signals::first_samples::FirstSamples;
 use crate::signals::limit::Limit;
 use crate::signals::tone::{Beat, Tone};
 use crate::thresholds::signals::SignalThresholds;
@@ -45,10 +46,12 @@ pub(crate) struct Along<'a> {
     tone_basis: Vec<Vec<Vec<f64>>>,
     limits: &'a [Limit],
     thresholds: &'a SignalThresholds,
-    /// Whether the effort readings are noisy.
-    noisy: bool,
     cutoff_hz: f64,
     low_pass: LowPass,
+    /// The low-pass before the signals of a log are decimated to the rate of the motion, where they are.
+    thinning: Option<LowPass>,
+    /// Scales of the first samples, where all samples are to have one noise.
+    first_samples: Option<FirstSamples>,
     /// Number of samples of the run per sample of the motion, and of the motion per sample of the regression.
     strides: [usize; 2],
     /// Rate of the regression (Hz).
@@ -88,9 +91,11 @@ impl<'a> Along<'a> {
         };
         let motion = RunMotion::from_encoders(robot, frame, encoders, rate.recip());
         let low_pass = LowPass::new(ORDER, cutoff_hz, rate)?;
+        let thinning = (first > 1)
+            .then(|| LowPass::new(ORDER, THINNING * cutoff_hz, run.rate_hz))
+            .transpose()?;
         let (strides, rate_hz) = ([first, second], rate / second as f64);
         let (counts, tone_basis) = (Vec::new(), vec![Vec::new(); run.joints.len()]);
-        let noisy = is_noisy(run, thresholds.noisy_readings);
         Ok(Self {
             motion,
             run,
@@ -98,9 +103,10 @@ impl<'a> Along<'a> {
             tone_basis,
             limits,
             thresholds,
-            noisy,
             cutoff_hz,
             low_pass,
+            thinning,
+            first_samples: None,
             strides,
             rate_hz,
         })
@@ -119,16 +125,21 @@ impl<'a> Along<'a> {
         self
     }
 
+    /// Scales the first samples of efforts and columns alike, so that all samples have one noise.
+    pub fn with_even_noise(mut self) -> Self {
+        let (thinning, low_pass) = (self.thinning.as_ref(), &self.low_pass);
+        self.first_samples = Some(FirstSamples::new(thinning, low_pass, self.strides));
+        self
+    }
+
     /// Removes tones from efforts and columns alike.
-    pub fn with_tones(mut self, tones: &[Tone]) -> Result<Self, LogError> {
-        for tone in tones {
-            self.project_out(tone)?;
-        }
-        Ok(self)
+    pub fn with_tones(mut self, tones: &[Tone]) -> Self {
+        tones.iter().for_each(|tone| self.project_out(tone));
+        self
     }
 
     /// One where joint `j` moves, else zero. Also zero are the samples within reach of the decimation filter from a
-    /// standstill, the end of the run, which a late torque needs, and the start of a noisy run.
+    /// standstill, and the end of the run, which a late torque needs.
     fn moving_mask(&self, j: usize) -> Vec<f64> {
         let thins = self.strides[0] > 1;
         let margin = if thins { self.reach(THINNING * self.cutoff_hz) } else { 0 };
@@ -137,7 +148,7 @@ impl<'a> Along<'a> {
     }
 
     /// Adds a tone to the basis of the tones at its joint, if any of it lies in the band.
-    fn project_out(&mut self, tone: &Tone) -> Result<(), LogError> {
+    fn project_out(&mut self, tone: &Tone) {
         let beat = match tone.beat {
             Beat::Position(_) => &self.run.joints[tone.joint].wide.q,
             Beat::Clock(_) => &self.run.time,
@@ -145,7 +156,7 @@ impl<'a> Along<'a> {
         let phase = || beat.iter().map(|b| tone.beat.rate() * b);
         for sine in [phase().map(f64::cos).collect(), phase().map(f64::sin).collect()] {
             // The second projection takes what the first leaves by rounding.
-            let sine = self.without_tones(tone.joint, self.thin_signal(tone.joint, sine)?);
+            let sine = self.without_tones(tone.joint, self.thin_signal(tone.joint, sine));
             let mut sine = self.without_tones(tone.joint, sine);
             let norm = sine.iter().map(|x| x * x).sum::<f64>().sqrt();
             if norm > IN_BAND * (sine.len() as f64).sqrt() {
@@ -153,7 +164,6 @@ impl<'a> Along<'a> {
                 self.tone_basis[tone.joint].push(sine);
             }
         }
-        Ok(())
     }
 
     /// An effort signal at joint `j`, at the rate of the regression, orthogonal to the tones there.
@@ -165,7 +175,8 @@ impl<'a> Along<'a> {
         x
     }
 
-    /// A signal of joint `j`, masked, low-passed and decimated to the rate of the regression.
+    /// A signal of joint `j`, masked, low-passed, decimated to the rate of the regression, and scaled in its first samples
+    /// where [these are](Along::with_even_noise).
     pub fn finish(&self, j: usize, mut x: Vec<f64>) -> Vec<f64> {
         self.finish_all([(j, &mut x)]);
         x
@@ -173,6 +184,17 @@ impl<'a> Along<'a> {
 
     /// [`Along::finish`] for many signals, each given with its joint.
     fn finish_all<'x>(&self, signals: impl IntoIterator<Item = (usize, &'x mut Vec<f64>)>) {
+        let signals = self.smooth_all(signals);
+        if let Some(first_samples) = &self.first_samples {
+            signals.into_iter().for_each(|x| first_samples.scale(x));
+        }
+    }
+
+    /// Masks, low-passes and decimates signals, each given with its joint.
+    fn smooth_all<'x>(
+        &self,
+        signals: impl IntoIterator<Item = (usize, &'x mut Vec<f64>)>,
+    ) -> Vec<&'x mut Vec<f64>> {
         let mut signals: Vec<&mut Vec<f64>> = signals
             .into_iter()
             .map(|(j, x)| {
@@ -183,7 +205,8 @@ impl<'a> Along<'a> {
             })
             .collect();
         self.low_pass.apply_all(&mut signals);
-        signals.into_iter().for_each(|x| *x = decimate(x, self.strides[1]));
+        signals.iter_mut().for_each(|x| **x = decimate(x, self.strides[1]));
+        signals
     }
 
     /// How far a low-pass spreads a signal (samples of the motion).
@@ -192,13 +215,11 @@ impl<'a> Along<'a> {
     }
 
     /// Whether a sample of the motion is more than `margin` away from samples at which a joint `rests`. It must also be
-    /// out of reach of the low-pass from the end of the run, which a late torque needs, and from the start of a noisy
-    /// run.
+    /// out of reach of the low-pass from the end of the run, which a late torque needs.
     fn is_away(&self, rests: &[bool], margin: usize) -> Vec<bool> {
         let end = self.reach(self.cutoff_hz).min(rests.len());
         let mut away = vec![true; rests.len()];
         away[rests.len() - end..].fill(false);
-        away[..if self.noisy { end } else { 0 }].fill(false);
         for (t, _) in rests.iter().enumerate().filter(|(_, rests)| **rests) {
             let end = (t + margin + 1).min(away.len());
             away[t.saturating_sub(margin)..end].fill(false);
@@ -236,7 +257,8 @@ impl<'a> Along<'a> {
 
     /// Whether a sample at the rate of the regression is informative about the effort of joint `j`.
     pub fn is_informative(&self, j: usize) -> Vec<bool> {
-        let moving_mask = self.finish(j, vec![1.0; self.motion.samples()]);
+        let mut moving_mask = vec![1.0; self.motion.samples()];
+        self.smooth_all([(j, &mut moving_mask)]);
         moving_mask.into_iter().map(|share| share > self.thresholds.informative_share).collect()
     }
 
@@ -257,13 +279,13 @@ impl<'a> Along<'a> {
     }
 
     /// The efforts of the log.
-    pub fn measured_effort(&self) -> Result<Vec<Vec<f64>>, LogError> {
+    pub fn measured_effort(&self) -> Vec<Vec<f64>> {
         self.thin_signals(self.run.joints.iter().map(|j| j.effort.clone()).collect())
     }
 
     /// The position that the first encoder of every joint reports minus that of its link (rad or m); zero where no second
     /// encoder shows the link.
-    pub fn twists(&self) -> Result<Vec<Vec<f64>>, LogError> {
+    pub fn twists(&self) -> Vec<Vec<f64>> {
         let samples = self.run.time.len();
         let of = |j: &PreparedJoint| {
             j.link.as_ref().map_or_else(|| vec![0.0; samples], |link| link.twist.clone())
@@ -277,23 +299,23 @@ impl<'a> Along<'a> {
     }
 
     /// The part of the effort at the joint of `limit` that did not become torque.
-    pub fn beyond(&self, limit: &Limit) -> Result<Vec<f64>, LogError> {
+    pub fn beyond(&self, limit: &Limit) -> Vec<f64> {
         let beyond = self.effort(limit.joint).map(|effort| limit.beyond(effort)).collect();
         self.thin_signal(limit.joint, beyond)
     }
 
     /// The clipped part of each effort (N·m or N); empty without saturation.
-    pub fn beyond_limits(&self) -> Result<Vec<Vec<f64>>, LogError> {
+    pub fn beyond_limits(&self) -> Vec<Vec<f64>> {
         let mut all = vec![Vec::new(); self.run.joints.len()];
         for limit in self.limits {
-            all[limit.joint] = self.beyond(limit)?;
+            all[limit.joint] = self.beyond(limit);
         }
-        Ok(all)
+        all
     }
 
     /// The clipped part of each effort, and the tones in the residual `left` of the rest.
-    pub fn known_effort(&self, left: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, LogError> {
-        let mut known = self.beyond_limits()?;
+    pub fn known_effort(&self, left: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let mut known = self.beyond_limits();
         for (j, known) in
             known.iter_mut().enumerate().filter(|(j, _)| !self.tone_basis[*j].is_empty())
         {
@@ -302,7 +324,7 @@ impl<'a> Along<'a> {
             let rest = self.without_tones(j, became_torque);
             *known = left[j].iter().zip(rest).map(|(x, rest)| x - rest).collect();
         }
-        Ok(known)
+        known
     }
 
     /// The sine of a beat at joint `j`, of phase zero at `origin`.
@@ -341,28 +363,18 @@ impl<'a> Along<'a> {
     /// Signals at the rate of the log, low-passed, at the rate of the regression. Where effects are evaluated at a
     /// lower rate than that of the log, a filter first keeps noise from aliasing into the band. It leaves the band
     /// itself unchanged (1e-5 at the cut-off).
-    fn thin_signals(&self, efforts: Vec<Vec<f64>>) -> Result<Vec<Vec<f64>>, LogError> {
+    fn thin_signals(&self, efforts: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         let thin_signal = |(j, effort)| self.thin_signal(j, effort);
         efforts.into_par_iter().enumerate().map(thin_signal).collect()
     }
 
-    fn thin_signal(&self, j: usize, mut x: Vec<f64>) -> Result<Vec<f64>, LogError> {
-        if self.strides[0] > 1 {
-            LowPass::new(ORDER, THINNING * self.cutoff_hz, self.run.rate_hz)?.apply(&mut x);
+    fn thin_signal(&self, j: usize, mut x: Vec<f64>) -> Vec<f64> {
+        if let Some(thinning) = &self.thinning {
+            thinning.apply(&mut x);
             x = decimate(&x, self.strides[0]);
         }
-        Ok(self.finish(j, x))
+        self.finish(j, x)
     }
-}
-
-/// Whether the noise of the efforts is more than a share `least` of them. The noise is the RMS difference of
-/// neighbouring readings over `sqrt 2`, over all joints.
-fn is_noisy(run: &PreparedRun, least: f64) -> bool {
-    let efforts = || run.joints.iter().map(|joint| &joint.effort);
-    let steps: f64 =
-        efforts().flat_map(|x| x.windows(2)).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
-    let whole: f64 = efforts().flatten().map(|x| x * x).sum();
-    0.5 * steps > least * least * whole
 }
 
 /// The signals `others` subtracted from the signals of all joints.

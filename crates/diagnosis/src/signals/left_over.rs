@@ -43,19 +43,19 @@ pub fn unexplained_torque(
     let frame = Frame { rest_speed: rest_speed.to_vec(), ..Frame::of_logs(logs) };
     let of = |run| {
         let along = Along::new(robot, &frame, run, logs.cutoff_hz, &limits, &thresholds)?;
-        of_run(&along)
+        Ok(of_run(&along))
     };
     logs.runs.iter().map(of).collect()
 }
 
 /// The residual of the robot of `along`, from the efforts that became torque.
-fn of_run(along: &Along) -> Result<LeftOver, LogError> {
-    let measured = along.measured_effort()?;
+fn of_run(along: &Along) -> LeftOver {
+    let measured = along.measured_effort();
     let mut left = along.remaining_effort(&measured);
-    for (left, beyond) in left.iter_mut().zip(along.beyond_limits()?) {
+    for (left, beyond) in left.iter_mut().zip(along.beyond_limits()) {
         left.iter_mut().zip(beyond).for_each(|(left, beyond)| *left -= beyond);
     }
-    Ok(LeftOver { measured, left })
+    LeftOver { measured, left }
 }
 
 /// The described limits of drives whose efforts are commands.

@@ -93,14 +93,14 @@ impl<'a> Log<'a> {
             let along = self.along_run(robot, frame, run)?;
             let along =
                 if self.response == Response::Effort { along.while_moving() } else { along };
-            along.with_tones(self.tones)
+            Ok(along.with_even_noise().with_tones(self.tones))
         };
         self.prepared.runs.par_iter().map(evaluate).collect()
     }
 
     /// `robot` evaluated along every run, with its efforts also while its joints stand.
     pub fn along_all(&self, robot: &Robot, frame: &Frame) -> Result<Vec<Along<'a>>, LogError> {
-        let evaluate = |run| self.along_run(robot, frame, run)?.with_tones(self.tones);
+        let evaluate = |run| Ok(self.along_run(robot, frame, run)?.with_tones(self.tones));
         self.prepared.runs.par_iter().map(evaluate).collect()
     }
 

@@ -2,6 +2,7 @@
 //! efforts are separated.
 
 pub(crate) mod along;
+pub(crate) mod first_samples;
 pub(crate) mod left_over;
 pub(crate) mod limit;
 pub(crate) mod log;

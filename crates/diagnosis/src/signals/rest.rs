@@ -1,5 +1,3 @@
-use logs::LogError;
-
 use crate::signals::along::Along;
 
 /// The residual efforts of one run, in the wide band of the tones.
@@ -19,14 +17,14 @@ pub(crate) struct Rest<'a> {
 impl<'a> Rest<'a> {
     /// The efforts minus those of the robot of `along`, with the positions and velocities of the motors and the
     /// samples in which they stand.
-    pub fn new(along: Along<'a>) -> Result<Self, LogError> {
-        Ok(Self {
+    pub fn new(along: Along<'a>) -> Self {
+        Self {
             time: along.time(),
             q: along.thin(&along.motion.q),
             qd: along.thin(&along.motion.qd),
-            left: along.remaining_effort(&along.measured_effort()?),
+            left: along.remaining_effort(&along.measured_effort()),
             stands: (0..along.motion.q.len()).map(|j| along.stands(j)).collect(),
             along,
-        })
+        }
     }
 }

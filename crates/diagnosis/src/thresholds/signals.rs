@@ -11,9 +11,6 @@ pub struct SignalThresholds {
     /// Least share of a joint's informative samples in which it must slide for them to have a variance of their own (1): of
     /// fewer it is hardly known.
     pub least_sliding: f64,
-    /// Noise of the readings of the efforts, as a share of them, above which the start of a run takes no part (1): the
-    /// low-pass begins in the first reading, with all of its noise.
-    pub noisy_readings: f64,
     /// Least share of a run's samples in which a joint moves, for the run to count as a motion of that joint (1).
     pub moving_share: f64,
     /// Largest RMS difference in position between two runs of one motion, as a share of the range (1).
@@ -31,7 +28,6 @@ impl Default for SignalThresholds {
             filter_reach: 0.35,
             informative_share: 2.0 / 3.0,
             least_sliding: 0.1,
-            noisy_readings: 0.1,
             moving_share: 0.05,
             repeat_difference: 0.01,
             repeat_shift_s: 1.0,

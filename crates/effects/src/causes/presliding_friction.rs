@@ -5,7 +5,7 @@ use crate::abilities::CanBeUnsound;
 use crate::bounds::down_to_zero;
 use crate::column::{EffectColumn, at_joint};
 use crate::effect::Effect;
-use crate::motion::drive::{bending, bristles};
+use crate::motion::drive::{Bristles, bristles};
 use crate::motion::frame::Frame;
 use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
@@ -20,7 +20,7 @@ use crate::traits::{Imitable, Law, Linearity, Location, Relation, RevealedBy, Tr
 ///
 /// ```text
 /// s(way) - sign(qd)
-/// (level - damping |qd|) (s(1.1 way) - s(0.9 way)) / (0.2 way),   qd - |qd| s(way)
+/// (f(1.1 way) - f(0.9 way)) / (0.2 way),   way ds/dt,   f(way) = level s(way) + damping way ds/dt
 /// ```
 pub(crate) struct PreslidingFriction;
 
@@ -71,20 +71,22 @@ impl Effect for PreslidingFriction {
 
     fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         let (gain, drive) = (motion.gain[j], &motion.drives[j]);
-        let held = |way: f64| bristles(&motion.q[j], way);
+        let bristles = |way: f64| bristles(&motion.q[j], way);
         let Some(way) = drive.presliding else {
-            let slower = held(SMALL).into_iter().zip(&motion.direction[j]);
+            let slower = bristles(SMALL).held.into_iter().zip(&motion.direction[j]);
             return vec![at_joint(j, slower.map(|(held, s)| gain * (held - s)))];
         };
-        let (long, short) = (held((1.0 + STEP) * way), held((1.0 - STEP) * way));
         let (level, damping) = (level(drive), drive.presliding_damping.unwrap_or(0.0));
-        let per_way = gain / (2.0 * STEP * way);
-        let share = |((long, short), qd): ((f64, f64), &f64)| {
-            per_way * (level - damping * qd.abs()) * (long - short)
+        let per_sample = damping / motion.period_s;
+        let friction = |way: f64| {
+            let Bristles { held, bending } = bristles(way);
+            held.into_iter().zip(bending).map(move |(s, bent)| level * s + per_sample * bent)
         };
-        let longer = long.into_iter().zip(short).zip(&motion.qd[j]).map(share);
-        let speeds = motion.qd[j].iter().zip(&motion.direction[j]);
-        let damped = speeds.map(|(qd, s)| gain * bending(*qd, *s));
+        let (long, short) = (friction((1.0 + STEP) * way), friction((1.0 - STEP) * way));
+        let per_way = gain / (2.0 * STEP * way);
+        let longer = long.zip(short).map(|(long, short)| per_way * (long - short));
+        let per_damping = gain / motion.period_s;
+        let damped = bristles(way).bending.into_iter().map(|bent| per_damping * bent);
         vec![at_joint(j, longer), at_joint(j, damped)]
     }
 

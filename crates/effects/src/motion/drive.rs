@@ -10,7 +10,7 @@ use crate::motion::dry_friction::dry_friction;
 /// load - tau_rb + rotor_inertia qdd + viscous qd + dry friction(q, qd, direction, load) + ripple(q)
 /// ```
 ///
-/// The friction is that of a warm drive.
+/// The friction is that of a warm drive, without the damping of bristles, which depends on the motion before.
 pub fn drive_torque(drive: &Actuator, state: [f64; 3], direction: f64, tau_rb: f64) -> f64 {
     let spring = spring_torque(drive, state[0]) + drive.spring_hysteresis * direction;
     spring + motor_torque(drive, state, direction, tau_rb + spring, 1.0)
@@ -22,7 +22,7 @@ pub(crate) fn warmth(time: f64) -> f64 {
 }
 
 /// The part of the drive's torque that acts at the motor (N·m or N), under the `load` of its transmission, with the
-/// warm-up `warmth` of the drive in [0, 1].
+/// warm-up `warmth` of the drive in [0, 1] and without the damping of its bristles.
 pub(crate) fn motor_torque(
     drive: &Actuator,
     [q, qd, qdd]: [f64; 3],
@@ -32,15 +32,9 @@ pub(crate) fn motor_torque(
 ) -> f64 {
     let ripple = drive.ripple.map_or(0.0, |r| r.amplitude * (r.periods * q + r.phase).sin());
     let friction = drive.viscous * qd + dry_friction(drive, [q, qd], direction, load);
-    let damping = drive.presliding.and(drive.presliding_damping).unwrap_or(0.0);
     let lost = |w: Warming| warmth * (w.viscous_lost * qd + w.coulomb_lost * direction);
     let friction = friction - drive.warming.map_or(0.0, lost);
-    drive.rotor_inertia * qdd + friction + ripple + damping * bending(qd, direction)
-}
-
-/// Speed at which bristles bend that hold the share `s` of dry friction: `qd - |qd| s`.
-pub(crate) fn bending(qd: f64, s: f64) -> f64 {
-    qd - qd.abs() * s
+    drive.rotor_inertia * qdd + friction + ripple
 }
 
 /// The torque of a joint's spring without its loop and of its counterbalance (N·m or N):
@@ -61,21 +55,108 @@ pub(crate) fn spring_slope(drive: &Actuator, q: f64) -> f64 {
     drive.spring_stiffness + 3.0 * drive.spring_cubic * x * x + balance
 }
 
-/// The share of dry friction that bristles hold, in [-1, 1], of a joint that follows `q`:
+/// Samples of a log that lie before a motion begins: the 1.5 periods of the cut-off in which its low-pass settles, at 16
+/// samples a period.
+const RUN_IN: f64 = 24.0;
+
+/// Bristles along a motion.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Bristles {
+    /// The share `s` of dry friction that they hold, in [-1, 1].
+    pub held: Vec<f64>,
+    /// The speed `way ds/dt = qd - |qd| s` at which they bend (rad or m a sample).
+    pub bending: Vec<f64>,
+}
+
+/// The bristles of a joint that follows `q`:
 ///
 /// ```text
 /// ds = (dq - |dq| s) / way
 /// ```
 ///
-/// It is exact for a position that is linear between samples, and starts without tension.
-pub(crate) fn bristles(q: &[f64], way: f64) -> Vec<f64> {
-    let mut held = 0.0;
-    let mut before = q.first().copied().unwrap_or(0.0);
-    let step = |&q: &f64| {
-        let moved = q - std::mem::replace(&mut before, q);
-        let end = if moved < 0.0 { -1.0 } else { 1.0 };
-        held = end + (held - end) * (-moved.abs() / way).exp();
-        held
+/// The solution is exact for a position that is linear between samples. They bend for moments shorter than a sample, so
+/// both signals are means from half a sample before to half a sample after. Before the first sample the joint is taken
+/// to have moved at its first speed for [`RUN_IN`] samples, from no tension.
+pub(crate) fn bristles(q: &[f64], way: f64) -> Bristles {
+    let mut s = 0.0;
+    // The mean of s over a way, at whose end s stands.
+    let mut pull = |moved: f64| {
+        let (end, ways) = (if moved < 0.0 { -1.0 } else { 1.0 }, moved.abs() / way);
+        let beside = s - end;
+        s = end + beside * (-ways).exp();
+        let mean = end + beside * if ways > 0.0 { -(-ways).exp_m1() / ways } else { 1.0 };
+        (mean, s)
     };
-    q.iter().map(step).collect()
+    let moved = |t: usize| q.get(t).zip(q.get(t + 1)).map(|(from, to)| to - from);
+    let (_, mut before) = pull(RUN_IN * moved(0).unwrap_or(0.0));
+    let sample = |t: usize| {
+        let halves = [t.checked_sub(1).and_then(moved), moved(t)].into_iter().flatten();
+        let (mut sum, mut after, mut count) = (0.0, before, 0.0);
+        for half in halves {
+            let (mean, end) = pull(0.5 * half);
+            (sum, after, count) = (sum + mean, end, count + 1.0);
+        }
+        let bent = way * (after - std::mem::replace(&mut before, after));
+        match count > 0.0 {
+            true => (sum / count, 2.0 * bent / count),
+            false => (after, 0.0),
+        }
+    };
+    let (held, bending) = (0..q.len()).map(sample).unzip();
+    Bristles { held, bending }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `[held, bending]` of samples between which the joint goes over lines, by 10,000 explicit steps a sample.
+    fn by_small_steps(q: &[f64], way: f64, start: f64) -> Vec<[f64; 2]> {
+        const STEPS: usize = 10_000;
+        let mut s = start;
+        let mut along = Vec::new();
+        for pair in q.windows(2) {
+            let dq = (pair[1] - pair[0]) / STEPS as f64;
+            for _ in 0..STEPS {
+                along.push(s);
+                s += (dq - dq.abs() * s) / way;
+            }
+        }
+        let inner = 1..q.len() - 1;
+        inner
+            .map(|t| {
+                let around = &along[t * STEPS - STEPS / 2..=t * STEPS + STEPS / 2];
+                let mean = around.iter().sum::<f64>() / around.len() as f64;
+                [mean, way * (around[STEPS] - around[0])]
+            })
+            .collect()
+    }
+
+    #[test]
+    fn bristles_that_bend_within_a_sample_have_their_whole_way() {
+        let way = 0.01;
+        let q: Vec<f64> = (0..60).map(|t| 0.2 * (0.21 * f64::from(t)).cos()).collect();
+        let Bristles { held, bending } = bristles(&q, way);
+        let first = (q[1] - q[0]).signum();
+        let start = first * -(-RUN_IN * (q[1] - q[0]).abs() / way).exp_m1();
+        for (t, [share, bent]) in by_small_steps(&q, way, start).into_iter().enumerate() {
+            let found = [held[t + 1], bending[t + 1]];
+            assert!((found[0] - share).abs() < 1e-3, "{t}: {found:?}, not {share}");
+            assert!((found[1] - bent).abs() < 1e-3 * way, "{t}: {found:?}, not {bent}");
+        }
+        // Down, up, down and up: each turn bends them over twice their way.
+        let turns: f64 = bending.iter().map(|bent| bent.abs()).sum();
+        assert!((turns / way - 6.0).abs() < 0.2, "{}", turns / way);
+    }
+
+    #[test]
+    fn bristles_of_a_joint_that_moves_are_bent_before_the_first_sample() {
+        let moving: Vec<f64> = (0..4).map(|t| -0.01 * f64::from(t)).collect();
+        let Bristles { held, bending } = bristles(&moving, 0.01);
+        assert!(held.iter().all(|s| (s + 1.0).abs() < 1e-9), "{held:?}");
+        assert!(bending.iter().all(|bent| bent.abs() < 1e-9), "{bending:?}");
+        assert_eq!(bristles(&[0.3; 3], 0.01).held, [0.0; 3]);
+        assert_eq!(bristles(&[0.3], 0.01), Bristles { held: vec![0.0], bending: vec![0.0] });
+        assert_eq!(bristles(&[], 0.01), Bristles { held: Vec::new(), bending: Vec::new() });
+    }
 }

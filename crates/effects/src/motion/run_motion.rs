@@ -114,7 +114,7 @@ impl RunMotion {
         let directions = (0..joints).map(|j| {
             let by_speed =
                 || direction(qd_reported[j].iter().copied(), frame.rest_speed[j], period_s);
-            drives[j].presliding.map_or_else(by_speed, |way| bristles(&q[j], way))
+            drives[j].presliding.map_or_else(by_speed, |way| bristles(&q[j], way).held)
         });
         let direction = directions.collect();
         let load = loads(robot, &link);
@@ -189,6 +189,10 @@ impl RunMotion {
                 load + motor_torque(a, state, self.direction[i][t], load, warmth)
             };
             self.torque[i] = (0..self.samples()).map(torque).collect();
+            if let (Some(way), Some(damping)) = (a.presliding, a.presliding_damping) {
+                let (bent, torque) = (bristles(&self.q[i], way).bending, self.torque[i].iter_mut());
+                torque.zip(bent).for_each(|(tau, bent)| *tau += damping * bent / self.period_s);
+            }
         }
         self.add_shared_friction();
         for (i, a) in self.drives.iter().enumerate() {

@@ -68,6 +68,16 @@ impl LowPass {
         Ok(Self { padding, sections })
     }
 
+    /// The response `h(n)` to a unit impulse, `n = 0` to the length of the extension. It is symmetric, `h(-n) = h(n)`,
+    /// and a long signal is filtered to `y(k) = sum over n of h(n) x(k - n)`.
+    #[must_use]
+    pub fn kernel(&self) -> Vec<f64> {
+        let mut impulse = vec![0.0; 4 * self.padding + 1];
+        impulse[2 * self.padding] = 1.0;
+        self.apply(&mut impulse);
+        impulse[2 * self.padding..=3 * self.padding].to_vec()
+    }
+
     /// Filters a signal in place, forward and backward.
     pub fn apply(&self, x: &mut [f64]) {
         self.apply_to([x]);
