@@ -4,6 +4,7 @@
 
 mod described;
 mod every_kind;
+mod turning;
 mod undone;
 
 use catalogue::EffectKind;

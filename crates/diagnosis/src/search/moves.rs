@@ -1,5 +1,3 @@
-use effects::Hypothesis;
-
 use crate::regression::problem::HypothesisSet;
 use crate::search::admit::Admitted;
 use crate::search::change::Change;
@@ -68,8 +66,7 @@ impl<'a> Selection<'a> {
 
     /// A state after all its admissible simplifications: the inertia of the link behind a joint becomes its rotor
     /// inertia, a gear ratio a torque constant, a torque offset and friction that grows with the load or differs with the
-    /// direction Coulomb friction, friction of shared motors that of each joint. Then one hypothesis with the same torque
-    /// takes the place of two: asymmetric friction that of Coulomb friction and a torque offset of at most half its level.
+    /// direction Coulomb friction, friction of shared motors that of each joint.
     pub fn simplify(&self, mut state: ModelState<'a>) -> ModelState<'a> {
         for g in state.model.clone() {
             let change = self.simplification(g);
@@ -79,28 +76,12 @@ impl<'a> Selection<'a> {
             }
             state = self.admit(&state, &change).map_or(state, |admitted| admitted.state);
         }
-        for one in 0..self.problem.design.groups.len() {
-            let Some(two) = self.two_for_one(&state.model, one) else { continue };
-            let change = Change::simplify(&two, &[one]);
-            state = self.admit(&state, &change).map_or(state, |admitted| admitted.state);
-        }
         state
     }
 
     /// The change of `g` into its simpler rivals.
     pub fn simplification(&self, g: usize) -> Change {
         Change::simplify(&[g], &self.simpler_than(g))
-    }
-
-    /// Findings of a joint that the hypothesis `one` may replace. `None` where another finding makes the level of the
-    /// friction vary.
-    fn two_for_one(&self, model: &HypothesisSet, one: usize) -> Option<Vec<usize>> {
-        let groups = &self.problem.design.groups;
-        let parts: Vec<Hypothesis> = groups[one].hypothesis.together();
-        let varies = |g: &usize| groups[*g].hypothesis.varies().is_some_and(|h| parts.contains(&h));
-        let two: Vec<usize> = parts.iter().map(|&part| self.find(part)).collect::<Option<_>>()?;
-        let are_there = !two.is_empty() && two.iter().all(|g| model.contains(g));
-        (are_there && !model.iter().any(varies)).then_some(two)
     }
 
     /// The model without `g`, and with the first special case of `g` that is then admitted: `g` excluded it before.

@@ -13,8 +13,8 @@ use crate::priors::Priors;
 use crate::quantity::{EffectQuantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Location, Relation, Traits, Weights};
 
-/// `forward` for positive and `-backward` for negative velocity: two weights a joint,
-/// the change of the mean level and half the change of the difference.
+/// `forward` for positive and `-backward` for negative velocity: two weights a joint, the change of the mean level and
+/// half the change of the difference. A joint that turns has the mean of both in between.
 pub(crate) struct AsymmetricFriction;
 
 impl Effect for AsymmetricFriction {
@@ -52,8 +52,7 @@ impl Effect for AsymmetricFriction {
     }
 
     fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
-        let against = motion.coulomb(j).zip(&motion.direction[j]).map(|(c, s)| c * s.signum());
-        vec![at_joint(j, motion.coulomb(j)), at_joint(j, against)]
+        vec![at_joint(j, motion.coulomb(j)), at_joint(j, motion.coulomb_skew(j))]
     }
 
     /// Levels as large as the effort itself.

@@ -8,6 +8,7 @@ use crate::abilities::{CanBeUnsound, CanHide, HasShape, ShapedDrive};
 use crate::bounds::infinite_bounds;
 use crate::column::{EffectColumn, at_joint};
 use crate::effect::{EASED_LEVEL, Effect};
+use crate::motion::dry_friction::{along_a_log, mean_and_skew};
 use crate::motion::frame::Frame;
 use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
@@ -75,13 +76,13 @@ impl Effect for PositionDependentFriction {
             return Vec::new();
         };
         let drive = &motion.drives[j];
-        let mean = level(drive);
+        let [mean, skew] = mean_and_skew(drive);
         let signal = |part: fn(f64) -> f64| {
             let samples = motion.q[j].iter().zip(&motion.direction[j]);
             samples.map(move |(q, s)| {
-                let own = if *s > 0.0 { drive.coulomb_forward } else { drive.coulomb_backward };
-                let side = if mean > 0.0 { own / mean } else { 1.0 };
-                motion.gain[j] * s * side * part(periods * q + phase)
+                let [s, skewed] = along_a_log(drive, *s);
+                let beside = if mean > 0.0 { skew / mean * skewed } else { 0.0 };
+                motion.gain[j] * (s + beside) * part(periods * q + phase)
             })
         };
         let mut columns = vec![at_joint(j, signal(f64::cos)), at_joint(j, signal(f64::sin))];

@@ -207,7 +207,9 @@ impl Compensation {
     /// (N·m or N).
     fn motor_torque(&self, j: usize, [q, qd, qdd]: [f64; 3], tau_link: f64) -> f64 {
         let drive = &self.drives[j];
-        tau_link + motor_torque(drive, [q, qd, qdd], self.direction(j, qd), tau_link, 1.0)
+        let direction = self.direction(j, qd);
+        let direction = [direction, direction.abs()];
+        tau_link + motor_torque(drive, [q, qd, qdd], direction, tau_link, 1.0)
     }
 
     /// Direction of motion of joint `j`, in [-1, 1].

@@ -13,7 +13,7 @@ use crate::motion::dry_friction::dry_friction;
 /// The friction is that of a warm drive, without the damping of bristles, which depends on the motion before.
 pub fn drive_torque(drive: &Actuator, state: [f64; 3], direction: f64, tau_rb: f64) -> f64 {
     let spring = spring_torque(drive, state[0]) + drive.spring_hysteresis * direction;
-    spring + motor_torque(drive, state, direction, tau_rb + spring, 1.0)
+    spring + motor_torque(drive, state, [direction, direction.abs()], tau_rb + spring, 1.0)
 }
 
 /// Warm-up of a drive after `time` time constants: `1 - exp(-time)`.
@@ -26,13 +26,13 @@ pub(crate) fn warmth(time: f64) -> f64 {
 pub(crate) fn motor_torque(
     drive: &Actuator,
     [q, qd, qdd]: [f64; 3],
-    direction: f64,
+    direction: [f64; 2],
     load: f64,
     warmth: f64,
 ) -> f64 {
     let ripple = drive.ripple.map_or(0.0, |r| r.amplitude * (r.periods * q + r.phase).sin());
     let friction = drive.viscous * qd + dry_friction(drive, [q, qd], direction, load);
-    let lost = |w: Warming| warmth * (w.viscous_lost * qd + w.coulomb_lost * direction);
+    let lost = |w: Warming| warmth * (w.viscous_lost * qd + w.coulomb_lost * direction[0]);
     let friction = friction - drive.warming.map_or(0.0, lost);
     drive.rotor_inertia * qdd + friction + ripple
 }

@@ -8,6 +8,7 @@ use crate::motion::cable_loop::Loop;
 use crate::motion::compliance::{Compliance, curvature, rate};
 use crate::motion::direction::{direction, stands};
 use crate::motion::drive::{bristles, motor_torque, warmth};
+use crate::motion::dry_friction::along_a_log;
 use crate::motion::effort_timing::{EffortTiming, shift};
 use crate::motion::encoders::{Encoders, JointMotions};
 use crate::motion::frame::Frame;
@@ -186,7 +187,7 @@ impl RunMotion {
                 let (state, load) =
                     ([self.q[i][t], self.qd[i][t], self.qdd[i][t]], self.load[i][t]);
                 let warmth = self.warmth(i, t);
-                load + motor_torque(a, state, self.direction[i][t], load, warmth)
+                load + motor_torque(a, state, along_a_log(a, self.direction[i][t]), load, warmth)
             };
             self.torque[i] = (0..self.samples()).map(torque).collect();
             if let (Some(way), Some(damping)) = (a.presliding, a.presliding_damping) {
@@ -300,12 +301,22 @@ impl RunMotion {
 
     /// Effort of joint `j` per unit of its Coulomb level, which may vary with position.
     pub(crate) fn coulomb(&self, j: usize) -> impl Iterator<Item = f64> + '_ {
-        let level = move |q: &f64| {
-            let wave = self.drives[j].friction_wave;
-            1.0 + wave.map_or(0.0, |w| w.share * (w.periods * q + w.phase).cos())
-        };
-        let levels = self.q[j].iter().map(level);
-        levels.zip(&self.direction[j]).map(move |(level, s)| self.gain[j] * level * s)
+        let levels = self.coulomb_levels(j).zip(&self.direction[j]);
+        levels.map(move |(level, s)| self.gain[j] * level * s)
+    }
+
+    /// Effort of joint `j` per unit of half the difference of its Coulomb levels, which may vary with position.
+    pub(crate) fn coulomb_skew(&self, j: usize) -> impl Iterator<Item = f64> + '_ {
+        let share = move |s: &f64| self.gain[j] * along_a_log(&self.drives[j], *s)[1];
+        self.coulomb_levels(j).zip(self.direction[j].iter().map(share)).map(|(l, s)| l * s)
+    }
+
+    /// The Coulomb level of joint `j` over its mean.
+    fn coulomb_levels(&self, j: usize) -> impl Iterator<Item = f64> + '_ {
+        let wave = self.drives[j].friction_wave;
+        let level =
+            move |q: &f64| 1.0 + wave.map_or(0.0, |w| w.share * (w.periods * q + w.phase).cos());
+        self.q[j].iter().map(level)
     }
 
     /// Change of the effort of joint `j` by a change of its load.
