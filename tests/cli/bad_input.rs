@@ -180,7 +180,7 @@ fn an_output_folder_that_is_a_file() {
 #[test]
 fn a_log_in_the_place_of_the_robot_and_the_other_way_round() {
     let folder = folder();
-    let kinds = "a robot is a .urdf or a .toml file";
+    let kinds = "a robot is a URDF, an MJCF or a robot.toml";
     refused(folder.path(), "good.csv", "good.csv", &[], 3, &["good.csv", "help:", kinds]);
     refused(folder.path(), "arm.urdf", "arm.urdf", &[], 3, &["arm.urdf", "help:", kinds]);
 }

@@ -103,6 +103,11 @@ fn an_arm_goes_from_its_urdf_to_an_mjcf() {
 }
 
 #[test]
+fn the_program_that_was_installed_is_of_this_version() {
+    hold("install.md");
+}
+
+#[test]
 fn a_first_log_is_looked_at_and_diagnosed() {
     hold("first-log.md");
 }
@@ -124,7 +129,8 @@ fn a_payload_is_what_changed() {
 
 #[test]
 fn every_page_with_commands_is_held() {
-    let held = ["ten-minutes.md", "first-log.md", "ur-arm.md", "hobby-arm.md", "payload.md"];
+    let held =
+        ["install.md", "ten-minutes.md", "first-log.md", "ur-arm.md", "hobby-arm.md", "payload.md"];
     let with_commands = |page: &Page| blocks(&page.text).iter().any(|block| block.language == "sh");
     let names: Vec<String> = pages().into_iter().filter(with_commands).map(|p| p.name).collect();
     assert_eq!(names, held);

@@ -124,6 +124,16 @@ fn options_that_many_commands_share_stand_after_the_own_ones() {
 }
 
 #[test]
+fn every_help_has_examples_of_its_command() {
+    for command in COMMANDS {
+        let text = help(command, 100);
+        let begin = format!("  plumbline {}", command.join(" "));
+        let lines = section(&text, "Examples:");
+        assert!(!lines.is_empty() && lines[0].starts_with(&begin), "{command:?}: {lines:?}");
+    }
+}
+
+#[test]
 fn every_output_folder_has_a_default() {
     for command in COMMANDS {
         let text = help(command, 100).split_whitespace().collect::<Vec<_>>().join(" ");

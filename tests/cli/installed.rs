@@ -28,6 +28,7 @@ fn a_robot_of_an_installed_package_is_read_by_its_name() {
     assert_eq!(absent.code, 3);
     assert!(absent.err.contains("menagerie:arm: "), "{}", absent.err);
     assert!(absent.err.contains("pip install mujoco-menagerie"), "{}", absent.err);
+    assert!(!absent.err.contains("help:"), "{}", absent.err);
     let site = at("venv/lib/python3.13/site-packages");
     fs::create_dir_all(site.join("robot_descriptions")).unwrap();
     arm::write(
@@ -43,6 +44,7 @@ fn a_robot_of_an_installed_package_is_read_by_its_name() {
     let missing = check(folder.path(), "description:arm_description");
     assert_eq!(missing.code, 3);
     assert!(missing.err.contains("robot_descriptions pull arm_description"), "{}", missing.err);
+    assert!(!missing.err.contains("help:"), "{}", missing.err);
     let cache = at(".cache/robot_descriptions/arms");
     fs::create_dir_all(&cache).unwrap();
     fs::copy(at("arm.urdf"), cache.join("arm.urdf")).unwrap();

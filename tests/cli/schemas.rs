@@ -102,7 +102,14 @@ fn the_list_names_every_schema_and_each_is_one() {
     let list = run(&workspace(), &["schema"]).out;
     let names: Vec<&str> =
         list.lines().skip(1).map_while(|line| line.split_whitespace().next()).collect();
-    assert_eq!(names.len(), 19, "{list}");
+    assert_eq!(names.len(), 20, "{list}");
+    let told = run(&workspace(), &["schema", "--json"]).out;
+    let told: Value = serde_json::from_str(&told).unwrap();
+    let entries = told["schemas"].as_array().unwrap().iter();
+    assert!(
+        entries.map(|entry| entry["name"].as_str().unwrap()).eq(names.iter().copied()),
+        "{told}"
+    );
     for name in names {
         let schema = schema(name);
         assert!(jsonschema::meta::is_valid(&schema), "{name}");
@@ -191,6 +198,7 @@ fn what_is_written_follows_its_schema() {
         ("log-info", &["log", "info", "run_0.csv", "--robot", "arm.urdf", "--json"]),
         ("effects", &["effects", "--json"]),
         ("effect", &["explain", "FR02", "--json"]),
+        ("schemas", &["schema", "--json"]),
         ("export", &["export", "out", "--to", "mjcf,urdf", "--log", "run_1.csv", "--json"]),
         ("robot-init", &["robot", "init", "arm.urdf", "--out", "mine", "--json"]),
         ("simulation", &["simulate", "mine/scenario.toml", "--json"]),

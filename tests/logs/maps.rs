@@ -135,13 +135,19 @@ fn joint_states_of_plotjuggler_may_be_under_any_topic() {
 fn vectors_of_fewer_joints_than_the_robot_has_are_told_with_both_counts() {
     let joints = ["j1", "j2", "finger"].map(|name| (name, JointKind::Revolute));
     let arm = robot(&joints);
-    let file = Scratch::new("run.csv", format!("time,q[0],q[1],dq[0],dq[1],tau[0],tau[1]\n{ROWS}"));
-    let refused = recognise(&file.path, &arm, None, &ReadOptions::default()).unwrap_err();
-    assert_eq!(
-        file.told::<Run>(Err(refused)),
-        "run.csv: it has arrays q, dq and tau over time, of 2 joints each (q[{i}]), and the robot has 3 joints: \
-         j1, j2, finger"
-    );
+    for (effort, words) in
+        [("tau", "arrays q, dq and tau over time"), ("tau_J", "libfranka, time in ms")]
+    {
+        let header = format!("time,q[0],q[1],dq[0],dq[1],{effort}[0],{effort}[1]");
+        let file = Scratch::new("run.csv", format!("{header}\n{ROWS}"));
+        let refused = recognise(&file.path, &arm, None, &ReadOptions::default()).unwrap_err();
+        assert_eq!(
+            file.told::<Run>(Err(refused)),
+            format!(
+                "run.csv: it has the columns of 2 joints (q[{{i}}]; {words}), and the robot has 3 joints: j1, j2, finger"
+            )
+        );
+    }
 }
 
 #[test]

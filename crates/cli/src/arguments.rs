@@ -58,7 +58,7 @@ pub enum Command {
     #[command(subcommand)]
     Robot(RobotCommand),
     /// Explains an effect by its code or name; without one lists them all
-    #[command(alias = "effects")]
+    #[command(alias = "effects", after_help = after(help::EXPLAIN))]
     Explain(explain::Arguments),
     /// Opens the report of an output folder in the browser, its recordings in rerun's viewer
     #[command(after_help = after(help::VIEW))]
@@ -88,6 +88,7 @@ pub enum Command {
     #[command(after_help = after(help::MAN))]
     Man(man::Arguments),
     /// Prints the JSON schema of a file that is read or written; lists all schemas without a name
+    #[command(after_help = after(help::SCHEMA))]
     Schema(schema::Arguments),
 }
 

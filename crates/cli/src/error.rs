@@ -14,6 +14,7 @@ use robot::RobotError;
 use simulator::SimulatorError;
 
 use crate::design_error::DesignError;
+use crate::installed::is_of_package;
 use crate::messages::{print_error, tell};
 
 /// How to get the viewer of recordings, in the version that they are written for.
@@ -190,8 +191,7 @@ impl From<ExperimentError> for CliError {
     }
 }
 
-const KINDS_OF_FILES: &str =
-    "a robot is a .urdf or a .toml file (--robot), a log is a table of numbers over time (--log)";
+const KINDS_OF_FILES: &str = "a robot is a URDF, an MJCF or a robot.toml (--robot), a log is a table of numbers over time (--log)";
 
 const LEFT_OUT: &str =
     "takes the joints that the log has, the others are locked at zero or as a robot.toml says";
@@ -361,6 +361,8 @@ impl CliError {
             Self::Report(ReportError::NotAFolder { .. }) | Self::OwnInput { .. } => {
                 Some("give --out another name")
             }
+            // What is wrong with a name of a package says itself what to do.
+            Self::Robot(RobotError::Unreadable { path, .. }) if is_of_package(path) => None,
             Self::Robot(RobotError::InFile { path, .. } | RobotError::Unreadable { path, .. }) => {
                 (!has_extension(path, &["urdf", "xml", "toml"])).then_some(KINDS_OF_FILES)
             }

@@ -20,6 +20,16 @@ const EXIT_CODES: HelpPart = List(
     ],
 );
 
+const DIAGNOSIS_EXIT_CODES: HelpPart = List(
+    EXIT,
+    &[
+        ("0", "explained or consistent"),
+        ("1", "a gap is left unexplained, or the data cannot show one"),
+        USAGE,
+        UNUSABLE,
+    ],
+);
+
 const SIMULATION_EXIT_CODES: HelpPart = List(
     EXIT,
     &[
@@ -77,7 +87,7 @@ pub const DIAGNOSE: &[HelpPart] = &[
             ),
         ],
     ),
-    EXIT_CODES,
+    DIAGNOSIS_EXIT_CODES,
 ];
 
 pub const COMPARE: &[HelpPart] = &[
@@ -150,7 +160,22 @@ pub const EXPORT: &[HelpPart] = &[
     ),
 ];
 
-pub const ROBOT_CHECK: &[HelpPart] = &[EXIT_CODES];
+pub const ROBOT_CHECK: &[HelpPart] = &[
+    Examples(&[
+        "plumbline robot check robot.urdf",
+        "plumbline robot check mobile.urdf --joints arm_1,arm_2,arm_3",
+        "plumbline robot check menagerie:ur5e",
+    ]),
+    List(
+        EXIT,
+        &[
+            ("0", "the inertia of every moving body is possible"),
+            ("1", "one is impossible, or far from any body of its size"),
+            ("2", "usage: arguments"),
+            ("3", "a robot that cannot be used"),
+        ],
+    ),
+];
 
 pub const ROBOT_INIT: &[HelpPart] = &[
     Examples(&[
@@ -170,7 +195,14 @@ pub const ROBOT_INIT: &[HelpPart] = &[
     SIMULATION_EXIT_CODES,
 ];
 
-pub const LOG_INFO: &[HelpPart] = &[EXIT_CODES];
+pub const LOG_INFO: &[HelpPart] = &[
+    Examples(&[
+        "plumbline log info run_1.csv",
+        "plumbline log info run_1.csv run_2.csv --robot robot.urdf --map map.toml",
+        "plumbline log info bag --robot robot.urdf --topic /arm/joint_states",
+    ]),
+    List(EXIT, &[("0", "done"), ("2", "usage: arguments"), UNUSABLE]),
+];
 
 pub const DESIGN: &[HelpPart] = &[
     Examples(&[
@@ -367,15 +399,33 @@ pub const DEMO: &[HelpPart] = &[
     SIMULATION_EXIT_CODES,
 ];
 
-pub const VIEW: &[HelpPart] = &[List(
-    EXIT,
-    &[("0", "done"), ("2", "no program opens what there is"), ("3", "there is nothing to look at")],
-)];
+pub const VIEW: &[HelpPart] = &[
+    Examples(&["plumbline view out", "plumbline view out --print"]),
+    List(
+        EXIT,
+        &[
+            ("0", "done"),
+            ("2", "no program opens what there is"),
+            ("3", "there is nothing to look at"),
+        ],
+    ),
+];
 
 pub const COMPLETIONS: &[HelpPart] = &[Examples(&[
     "plumbline completions bash > ~/.local/share/bash-completion/completions/plumbline",
     "plumbline completions zsh > ~/.zfunc/_plumbline",
     "plumbline completions fish > ~/.config/fish/completions/plumbline.fish",
+])];
+
+pub const EXPLAIN: &[HelpPart] = &[
+    Examples(&["plumbline explain", "plumbline explain FR02", "plumbline explain payload --json"]),
+    List(EXIT, &[("0", "done"), ("2", "usage: arguments, or a name of no effect")]),
+];
+
+pub const SCHEMA: &[HelpPart] = &[Examples(&[
+    "plumbline schema",
+    "plumbline schema robot > robot.schema.json",
+    "plumbline schema map --markdown",
 ])];
 
 pub const MAN: &[HelpPart] = &[Examples(&["plumbline man --out ~/.local/share/man/man1"])];

@@ -50,7 +50,7 @@ pub enum LogError {
         nearest: Option<Box<str>>,
     },
     /// A file has vectors of another length than the robot has joints.
-    #[error("{}: it has {words}, of {found} joints each ({pattern}), and the robot has {} joints: {}",
+    #[error("{}: it has the columns of {found} joints ({pattern}; {words}), and the robot has {} joints: {}",
         path.display(), joints.len(), list(joints))]
     OtherCount {
         /// The file.

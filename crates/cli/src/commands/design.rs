@@ -23,7 +23,7 @@ use crate::progress::Line;
 /// Arguments of `design`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The robot: a robot.urdf, or a robot.toml that names one; the one that was diagnosed when left out
+    /// The robot: a robot.urdf, an MJCF, or a robot.toml that names one; the one that was diagnosed when left out
     #[arg(long, value_name = "FILE")]
     robot: Option<PathBuf>,
     #[command(flatten)]

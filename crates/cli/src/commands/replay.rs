@@ -18,7 +18,7 @@ use crate::quiet::Quiet;
 /// Arguments of `replay`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The robot whose simulation is looked at: a robot.urdf, or a robot.toml that names one
+    /// The robot whose simulation is looked at: a robot.urdf, an MJCF, or a robot.toml that names one
     #[arg(long, value_name = "FILE")]
     robot: Option<PathBuf>,
     /// A diagnosis, its folder or its diagnosis.json: its extended robot is looked at and its logs are read, where

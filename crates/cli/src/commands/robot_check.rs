@@ -19,7 +19,8 @@ const SCHEMA: &str = "plumbline.robot_check/1";
 /// Arguments of `robot check`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// A robot.urdf, or a robot.toml that names one
+    /// A robot.urdf, an MJCF, or a robot.toml that names one; of installed Python packages also menagerie:ur5e
+    /// (mujoco-menagerie) and description:panda_description (robot_descriptions)
     file: PathBuf,
     #[command(flatten)]
     part: PartArguments,

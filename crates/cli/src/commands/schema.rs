@@ -4,7 +4,8 @@ use clap::ValueEnum;
 use experiment::TrackingSpec;
 use logs::ColumnMap;
 use report::{LearningComparison, ReplayReport, RunReport, TrackingComparison};
-use schemars::{Schema, schema_for};
+use schemars::{JsonSchema, Schema, schema_for};
+use serde::Serialize;
 
 use crate::commands::design::motion_design::DesignSummary;
 use crate::commands::{explain, export, log_info, robot_check, robot_init, simulate};
@@ -12,6 +13,9 @@ use crate::error::CliError;
 use crate::exit_status::ExitStatus;
 use crate::output::{print, print_json, table};
 use crate::schema_text::{scenario_schema, schema_text, with_extends};
+
+/// Name and version of the schema of the list that `--json` prints.
+const SCHEMA: &str = "plumbline.schemas/1";
 
 /// Arguments of `schema`.
 #[derive(Debug, clap::Args)]
@@ -22,6 +26,9 @@ pub struct Arguments {
     /// Print a page in Markdown: every key with its unit, its default and what it means
     #[arg(long, requires = "name")]
     markdown: bool,
+    /// Print the list of all as JSON
+    #[arg(long, conflicts_with = "name")]
+    json: bool,
 }
 
 /// A kind of file, or of what `--json` prints.
@@ -67,6 +74,8 @@ pub enum FileKind {
     Effects,
     /// explain EFFECT --json
     Effect,
+    /// schema --json
+    Schemas,
 }
 
 impl FileKind {
@@ -92,6 +101,7 @@ impl FileKind {
             Self::LogInfo => log_info::schema(),
             Self::Effects => explain::schema(),
             Self::Effect => explain::schema_of_one(),
+            Self::Schemas => report::written_schema::<Schemas>(SCHEMA, "Plumbline schemas"),
         }
     }
 
@@ -122,18 +132,41 @@ pub fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     match arguments.name {
         Some(kind) if arguments.markdown => print(&(page::page(&kind.schema()) + &kind.more()))?,
         Some(kind) => print(&kind.text()?)?,
+        None if arguments.json => print_json(&Schemas { schema: SCHEMA, schemas: entries() })?,
         None => print(&list())?,
     }
     Ok(ExitStatus::Good)
 }
 
+/// What `--json` prints of all schemas.
+#[derive(Serialize, JsonSchema)]
+struct Schemas {
+    schema: &'static str,
+    schemas: Vec<SchemaEntry>,
+}
+
+/// A schema of the list.
+#[derive(Serialize, JsonSchema)]
+struct SchemaEntry {
+    /// Its name, such as `robot`.
+    name: String,
+    /// What it is the schema of.
+    of: String,
+}
+
+/// All schemas.
+fn entries() -> Vec<SchemaEntry> {
+    let values = FileKind::value_variants().iter().filter_map(FileKind::to_possible_value);
+    let entry = |value: clap::builder::PossibleValue| SchemaEntry {
+        name: value.get_name().to_owned(),
+        of: value.get_help().map(ToString::to_string).unwrap_or_default(),
+    };
+    values.map(entry).collect()
+}
+
 /// The names of all schemas.
 fn list() -> String {
-    let values = FileKind::value_variants().iter().filter_map(FileKind::to_possible_value);
-    let rows = values.map(|value| {
-        let help = value.get_help().map(ToString::to_string).unwrap_or_default();
-        vec![value.get_name().to_owned(), help]
-    });
+    let rows = entries().into_iter().map(|entry| vec![entry.name, entry.of]);
     format!(
         "{}\nplumbline schema NAME prints one. In TOML, a first line `#:schema ./FILE` tells editors where it is.\n",
         table(&["schema", "of"], rows)

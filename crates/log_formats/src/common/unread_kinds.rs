@@ -37,7 +37,7 @@ const NOT_A_TABLE: &str = "a log has a line of names, then one of numbers for ev
 #[rustfmt::skip]
 const UNREAD_KINDS: [(usize, &[u8], &str, &str); 21] = [
     (0, b"rosbag2_bagfile_information", "the description of a rosbag2", "give the folder that it stands in"),
-    (0, b"#ROSBAG V", "a bag of ROS 1", "rosbags-convert --dst-storage mcap writes it as a bag of ROS 2"),
+    (0, b"#ROSBAG V", "a bag of ROS 1", "rosbags-convert --src FILE.bag --dst FOLDER --dst-storage mcap writes it as a bag of ROS 2"),
     (0, b"PK\x05\x06", "an empty zip archive", "a log was expected"),
     (0, b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "an Excel workbook", TABLE),
     (0, b"BZh", "packed with bzip2", PACKED),

@@ -59,11 +59,11 @@ impl ReplayReport {
         };
         let at = |window: &ReplayedWindow, joint: usize| {
             let drift = window.drift_rms.as_ref().and_then(|rms| rms.get(joint));
-            drift.copied().unwrap_or(f64::NAN)
+            1e3 * drift.copied().unwrap_or(f64::NAN)
         };
         let keys = run.windows.iter().enumerate().map(key).collect();
         let values = |joint| run.windows.iter().map(|window| at(window, joint)).collect();
-        self.dots(run, "drift of the simulation", "RMS drift (rad or m)", (keys, &values))
+        self.dots(run, "drift of the simulation", "RMS drift (mrad or mm)", (keys, &values))
     }
 
     /// The torque of a run as dots: how far off it is, beside how large it is.
@@ -103,17 +103,21 @@ impl ReplayReport {
 
     /// Every number of a run, one row a joint.
     fn table(&self, run: &ReplayedRun) -> Result<String, ReportError> {
-        let mut header: Vec<String> =
-            run.windows.iter().map(|w| format!("Drift in {} ms", w.window_ms)).collect();
+        let mut header: Vec<String> = run
+            .windows
+            .iter()
+            .map(|w| format!("Drift in {} ms (mrad or mm)", w.window_ms))
+            .collect();
         if run.torque.is_some() {
             header.extend(["Torque error", "Measured torque"].map(str::to_owned));
         }
         let row = |(joint, name): (usize, &String)| {
-            let drifts = run.windows.iter().map(|w| w.drift_rms.as_deref().unwrap_or_default());
-            let torques = run.torque.iter().flat_map(|t| [&t.error_rms_nm, &t.measured_rms_nm]);
-            let columns = drifts.chain(torques.map(Vec::as_slice));
             let number = |column: &[f64]| column.get(joint).copied().unwrap_or(f64::NAN);
-            let cells = columns.map(|c| Cell::plain(significant(number(c), TABLE_DIGITS)));
+            let drifts = run.windows.iter().map(|w| w.drift_rms.as_deref().unwrap_or_default());
+            let drifts = drifts.map(|drift| 1e3 * number(drift));
+            let torques = run.torque.iter().flat_map(|t| [&t.error_rms_nm, &t.measured_rms_nm]);
+            let values = drifts.chain(torques.map(|torque| number(torque)));
+            let cells = values.map(|value| Cell::plain(significant(value, TABLE_DIGITS)));
             (name.clone(), cells.collect())
         };
         let tip = run.windows.iter().map(|w| w.tip_rms_m.map_or(f64::NAN, |m| 1e3 * m));
@@ -137,7 +141,9 @@ mod tests {
         let page = sample().page().unwrap();
         for expected in [
             "<h2 id=\"run-1\">run_1</h2>",
-            "&#60;elbow&#62;, 50 ms: 0.00200",
+            "&#60;elbow&#62;, 50 ms: 2.00",
+            "<td class=\"n\">1.00</td>",
+            "Drift in 50 ms (mrad or mm)",
             "shoulder, simulated minus measured: 0.500",
             "<td class=\"n\">12.0</td>",
             "a joint ran away",

@@ -28,10 +28,10 @@ impl<'a> Section<'a> for SimulationDrift {
             windows.iter().map(|w| drifts(w).map(number)).collect()
         };
         let joints = report.robot.links().iter().enumerate().map(|(j, link)| {
-            let unit = if link.joint.kind.is_rotation() { "rad" } else { "m" };
+            let unit = if link.joint.kind.is_rotation() { "mrad" } else { "mm" };
             let at = |drift: &Drift| drift.rms.as_ref().and_then(|rms| rms.get(j).copied());
             let name = format!("{} ({unit})", link.joint.name);
-            (name, cells(&|drift| at(drift).unwrap_or(f64::NAN)))
+            (name, cells(&|drift| 1e3 * at(drift).unwrap_or(f64::NAN)))
         });
         let tip = cells(&|drift| drift.tip_rms_m.map_or(f64::NAN, |m| 1e3 * m));
         Ok(Some(Self {
@@ -57,10 +57,7 @@ mod tests {
         let report = Report { forward: Some(&gap), ..sample.report() };
         let table = SimulationDrift::new(&report).unwrap().unwrap();
         assert_eq!(table.windows, ["200 ms"]);
-        assert_eq!(
-            table.rows[0],
-            ("shoulder (rad)".into(), vec![["0.100".into(), "0.0100".into()]])
-        );
+        assert_eq!(table.rows[0], ("shoulder (mrad)".into(), vec![["100".into(), "10.0".into()]]));
         assert_eq!(table.rows[2], ("tip (mm)".into(), vec![["50.0".into(), "4.00".into()]]));
         assert_eq!(
             table.remarks[0],
