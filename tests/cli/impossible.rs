@@ -169,6 +169,21 @@ fn time_in_nanoseconds_is_replayed_as_such_or_refused() {
     assert!(text.lines().nth(2).unwrap().starts_with("5e6,"), "{:?}", text.lines().nth(2));
 }
 
+#[test]
+fn a_clock_that_does_not_count_in_seconds_is_charged_to_its_own_log() {
+    for (unit, count) in [("ms", 1e3), ("us", 1e6), ("ns", 1e9)] {
+        let folder = folder(0, |_, t| (t * count).round());
+        for logs in [["changed.csv", "run_1.csv"], ["run_1.csv", "changed.csv"]] {
+            let words = ["diagnose", "--robot", "arm.urdf", "--out", "out", "--log"];
+            let answer = run(folder.path(), &[&words[..], &logs].concat());
+            assert_eq!(answer.code, 3, "{answer:?}");
+            let expected = format!("its time looks like {unit}, seconds were expected");
+            assert!(answer.err.starts_with("error: run changed: its rows are"), "{answer:?}");
+            assert!(answer.err.contains(&expected), "{answer:?}");
+        }
+    }
+}
+
 /// A chain of links of a metre.
 fn chain(joints: usize) -> String {
     let link = |i: usize| {

@@ -223,6 +223,9 @@ fn of_log(log: &LogError) -> Option<&'static str> {
         LogError::LooksLikeDegrees { .. } => {
             Some("in the column map: position = { column = \"...\", unit = \"deg\" }")
         }
+        LogError::OtherClock { .. } => {
+            Some("in a column map (--map) of this log: time = { column = \"...\", unit = \"ns\" }")
+        }
         LogError::Impossible { .. } => {
             Some("take these rows out of the file, or record without what wrote them")
         }
