@@ -51,6 +51,7 @@ pub fn readers() -> Vec<Reader> {
         file,
         short: 0,
         seeds,
+        parsed: None,
         change,
         read: parse,
         parse,
@@ -100,10 +101,10 @@ pub fn readers() -> Vec<Reader> {
     ]
 }
 
-/// Two episodes of a second in a folder.
+/// Two episodes of a tenth of a second in a folder.
 fn write_dataset(folder: &Path, layout: Layout) {
     let path = folder.join("short.csv");
-    std::fs::write(&path, logs_of_kinds::rows(50)).unwrap();
+    std::fs::write(&path, logs_of_kinds::rows(12)).unwrap();
     let run = read_run(&path, &ROBOT, &ReadOptions::default()).unwrap();
     lerobot::write(folder, &[run.clone(), run], layout, &[logs::Channel::Velocity]);
 }
@@ -147,7 +148,7 @@ fn rostopic(_: &Path) -> Vec<Vec<u8>> {
         "%time,field.header.stamp,field.name0,field.name1,field.position0,field.position1,\
                     field.effort0,field.effort1\n"
             .to_owned();
-    for k in 0..50 {
+    for k in 0..12 {
         let (q, tau) = (f64::from(k).sin(), f64::from(k).cos());
         writeln!(text, "{k},{}000000,j2,j1,{q:.4},{tau:.4},{tau:.3},{q:.3}", 1000 + 10 * k)
             .unwrap();

@@ -27,6 +27,8 @@ pub struct Reader {
     pub short: u64,
     /// Puts files that inputs refer to into the folder, and gives good inputs.
     pub seeds: fn(&Path) -> Vec<Vec<u8>>,
+    /// Shorter ones where those take long, for rounds that read an input and no more.
+    pub parsed: Option<fn(&Path) -> Vec<Vec<u8>>>,
     /// Makes a few mistakes in a good input.
     pub change: fn(&[u8], &mut ChaCha8Rng) -> Vec<u8>,
     /// Reads the file and goes on to where it is used.
