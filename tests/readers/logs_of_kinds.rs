@@ -21,7 +21,7 @@ use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 use zip::{ZipArchive, ZipWriter, write::SimpleFileOptions};
 
-use super::{Reader, robots, tables};
+use super::{Reader, Seeds, robots, tables};
 
 pub static ROBOT: LazyLock<Robot> = LazyLock::new(|| Robot::from_urdf(robots::URDF).unwrap());
 
@@ -37,8 +37,7 @@ pub fn readers() -> Vec<Reader> {
         parse: |path| parse_with(path, &ReadOptions::default()),
         words,
     };
-    let with =
-        |parsed: fn(&Path) -> Vec<Vec<u8>>, reader| Reader { parsed: Some(parsed), ..reader };
+    let with = |parsed: Seeds, reader| Reader { parsed: Some(parsed), ..reader };
     let arrays = |name, words, seeds, change| Reader {
         read: read_arrays,
         parse: |path| parse_with(path, &arrays_of_joints()),
