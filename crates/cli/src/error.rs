@@ -224,7 +224,7 @@ fn of_log(log: &LogError) -> Option<&'static str> {
             Some("in the column map: position = { column = \"...\", unit = \"deg\" }")
         }
         LogError::OtherClock { .. } => {
-            Some("in a column map (--map) of this log: time = { column = \"...\", unit = \"ns\" }")
+            Some("a column map (--map) names the unit: time = { column = \"...\", unit = \"...\" }")
         }
         LogError::Impossible { .. } => {
             Some("take these rows out of the file, or record without what wrote them")
