@@ -94,3 +94,40 @@ fn a_pipe_is_not_waited_for() {
     }
     assert!(start.elapsed() < Duration::from_secs(20));
 }
+
+/// An arm whose base looks like the mesh `named.stl`, as URDF and as MJCF.
+#[cfg(target_os = "linux")]
+fn with_a_mesh() -> [(&'static str, String); 2] {
+    const MJCF: &str = r#"<mujoco model="a"><asset><mesh name="m" file="named.stl"/></asset><worldbody>
+<body name="b"><joint name="j" type="hinge"/><inertial pos="0 0 .1" mass="1" diaginertia="1 1 1"/>
+<geom type="mesh" mesh="m"/></body></worldbody></mujoco>"#;
+    let visual = "<visual><geometry><mesh filename=\"named.stl\"/></geometry></visual>";
+    let base = format!("<link name=\"base\">{visual}</link>");
+    let urdf = arm::URDF.replace("<link name=\"base\"/>", &base);
+    [("mesh.urdf", urdf), ("mesh.xml", MJCF.to_owned())]
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_mesh_that_is_no_file_is_left_out_by_name_and_nothing_of_it_is_shown() {
+    use crate::named_files::{ALL, Found, place, prepared, run};
+
+    let around = prepared();
+    let inside = around.path().join("inside");
+    for ((file, text), found) in
+        with_a_mesh().into_iter().flat_map(|robot| ALL.map(|found| (robot.clone(), found)))
+    {
+        arm::write(&inside, file, &text);
+        place(&inside, found);
+        let path = inside.join("named.stl");
+        if found != Found::Nothing {
+            fs::rename(inside.join("named"), &path).unwrap();
+        }
+        let answer = run(&inside, &["robot", "check", file].map(str::to_owned));
+        let said = format!("{}{}", answer.out, answer.err);
+        assert_eq!(answer.code, 0, "{file}, {found:?}: {said}");
+        assert!(said.contains("named.stl is one"), "{file}, {found:?}: {said}");
+        assert!(!said.contains("nobody"), "{file}, {found:?}: {said}");
+        let _ = if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) };
+    }
+}

@@ -5,6 +5,7 @@
 mod alarm;
 mod another_engine;
 mod arm;
+mod at_limits;
 mod bad_input;
 #[cfg(unix)]
 mod book;

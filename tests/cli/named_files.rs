@@ -19,7 +19,7 @@ const PATIENCE: Duration = Duration::from_secs(60);
 
 /// What a name may lead to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Found {
+pub enum Found {
     Pipe,
     Passwords,
     Zeros,
@@ -30,7 +30,7 @@ enum Found {
     Large,
 }
 
-const ALL: [Found; 7] = [
+pub const ALL: [Found; 7] = [
     Found::Pipe,
     Found::Passwords,
     Found::Zeros,
@@ -41,7 +41,7 @@ const ALL: [Found; 7] = [
 ];
 
 /// Puts it under the name `named` into a folder.
-fn place(folder: &Path, found: Found) {
+pub fn place(folder: &Path, found: Found) {
     let path = folder.join("named");
     match found {
         Found::Pipe => assert!(Command::new("mkfifo").arg(&path).status().unwrap().success()),
@@ -55,7 +55,7 @@ fn place(folder: &Path, found: Found) {
 }
 
 /// The answer of the program, which is ended where it takes too long.
-fn run(folder: &Path, arguments: &[String]) -> Answer {
+pub fn run(folder: &Path, arguments: &[String]) -> Answer {
     let mut child = checks::program::command(PROGRAM)
         .current_dir(folder)
         .args(arguments)
@@ -80,7 +80,7 @@ fn run(folder: &Path, arguments: &[String]) -> Answer {
 }
 
 /// A folder with an arm and its logs in `inside`, and a secret beside that.
-fn prepared() -> tempfile::TempDir {
+pub fn prepared() -> tempfile::TempDir {
     let around = tempfile::tempdir().unwrap();
     arm::write(around.path(), "secret", &SECRET.repeat(20));
     let inside = around.path().join("inside");

@@ -68,6 +68,22 @@ fn parquet_log(path: &Path, name: &str) {
     writer.close().unwrap();
 }
 
+/// A bag whose topic and one of whose joints have the name, as far as there is room in the pages of the database.
+fn bag(name: &str) -> Vec<u8> {
+    let golden = checks::arms::workspace_root().join("tests/golden/logs/sqlite_small_pages.db3");
+    let mut bytes = fs::read(golden).unwrap();
+    for old in [&b"/joint_states"[..], b"finger"] {
+        let ends = name.char_indices().map(|(at, c)| at + c.len_utf8());
+        let end = ends.take_while(|end| *end <= old.len()).last().unwrap_or_default();
+        let new = format!("{}{}", &name[..end], "c".repeat(old.len() - end));
+        let places: Vec<usize> =
+            (0..bytes.len()).filter(|at| bytes[*at..].starts_with(old)).collect();
+        assert!(!places.is_empty());
+        places.into_iter().for_each(|at| bytes[at..at + old.len()].copy_from_slice(new.as_bytes()));
+    }
+    bytes
+}
+
 /// A name as an attribute of XML, control characters by their number.
 fn in_xml(name: &str) -> String {
     let shown =
@@ -95,6 +111,7 @@ fn folder(name: &str) -> tempfile::TempDir {
         format!("urdf = \"arm.urdf\"\n[joint.{}]\nrotor_inertia_kg_m2 = 1.0\n", in_toml(name));
     arm::write(path, "hostile.toml", &toml);
     parquet_log(&path.join("hostile.parquet"), name);
+    fs::write(path.join("hostile.db3"), bag(name)).unwrap();
     fs::copy(path.join("run_0.csv"), path.join(format!("{name}.csv"))).unwrap();
     folder
 }
@@ -103,10 +120,12 @@ fn folder(name: &str) -> tempfile::TempDir {
 fn shown(name: &str) -> Vec<(String, String)> {
     let folder = folder(name);
     let csv = format!("{name}.csv");
-    let commands: [&[&str]; 12] = [
+    let commands: [&[&str]; 14] = [
         &["log", "info", "hostile.parquet"],
         &["log", "info", "hostile.parquet", "--robot", "arm.urdf"],
         &["log", "info", "hostile.parquet", "--robot", "arm.urdf", "--json"],
+        &["log", "info", "hostile.db3"],
+        &["log", "info", "hostile.db3", "--topic", "none"],
         &["log", "info", &csv, "--robot", "arm.urdf"],
         &["log", "info", "run_0.csv", "--robot", "hostile.urdf"],
         &["log", "info", "run_0.csv", "--robot", "arm.urdf", "--map", &csv],

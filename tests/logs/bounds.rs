@@ -117,3 +117,39 @@ fn columns_within_columns_end_nothing() {
         assert!(told.contains("its columns are nested more than 32 deep"), "{told}");
     }
 }
+
+/// A bag in MCAP of so many topics without a message; channels have numbers of their own, or all the same.
+fn topics(count: u16, number: impl Fn(u16) -> u16) -> Vec<u8> {
+    const MAGIC: &[u8] = b"\x89MCAP0\r\n";
+    let mut bytes = MAGIC.to_vec();
+    let mut record = |opcode: u8, fields: &[&[u8]]| {
+        let content = fields.concat();
+        bytes.push(opcode);
+        bytes.extend((content.len() as u64).to_le_bytes());
+        bytes.extend(content);
+    };
+    let text = |text: &str| [&(text.len() as u32).to_le_bytes()[..], text.as_bytes()].concat();
+    record(1, &[&text("ros2"), &text("")]);
+    record(3, &[&1_u16.to_le_bytes(), &text("std_msgs/msg/String"), &text("ros2msg"), &text("")]);
+    for k in 0..count {
+        let [id, schema] = [number(k), 1].map(u16::to_le_bytes);
+        record(4, &[&id, &schema, &text(&format!("/note_{k}")), &text("cdr"), &text("")]);
+    }
+    record(15, &[&[0; 4]]);
+    record(2, &[&[0; 20]]);
+    bytes.extend(MAGIC);
+    bytes
+}
+
+#[test]
+fn a_bag_of_ten_thousand_topics_is_looked_through_and_one_of_more_is_refused() {
+    let told = |count, number: fn(u16) -> u16| {
+        Scratch::new("bag.mcap", topics(count, number)).message(&two_joints())
+    };
+    let own: fn(u16) -> u16 = |k| k + 1;
+    assert!(told(10_000, own).contains("no joint states"), "{}", told(10_000, own));
+    for number in [own, |_| 7] {
+        let told = told(10_001, number);
+        assert!(told.contains("it has more than 10000 topics"), "{told}");
+    }
+}

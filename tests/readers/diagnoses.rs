@@ -33,6 +33,7 @@ pub fn readers() -> Vec<Reader> {
         file: "diagnosis.json",
         short: 0,
         seeds,
+        parsed: None,
         change: changed_text,
         read,
         parse: read,

@@ -44,6 +44,12 @@ desired_position = "goal_{joint}"
 position = { column = "q0", unit = "deg" }
 "#;
 
+/// As little of a robot as there can be beside a mesh.
+const ONE_LINK: &str = r#"<robot name="a"><link name="base"><visual><geometry>
+<mesh filename="part.stl" scale="1 1 1"/></geometry></visual></link><link name="arm"><inertial><mass value="1"/>
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="j" type="continuous"><parent link="base"/><child link="arm"/></joint></robot>"#;
+
 /// Read alone: where they are used they name other files than their own.
 pub fn readers() -> Vec<Reader> {
     let of = |name, file, words, seeds, change, parse| Reader {
@@ -51,6 +57,7 @@ pub fn readers() -> Vec<Reader> {
         file,
         short: 0,
         seeds,
+        parsed: None,
         change,
         read: parse,
         parse,
@@ -100,10 +107,10 @@ pub fn readers() -> Vec<Reader> {
     ]
 }
 
-/// Two episodes of a second in a folder.
+/// Two episodes of a tenth of a second in a folder.
 fn write_dataset(folder: &Path, layout: Layout) {
     let path = folder.join("short.csv");
-    std::fs::write(&path, logs_of_kinds::rows(50)).unwrap();
+    std::fs::write(&path, logs_of_kinds::rows(12)).unwrap();
     let run = read_run(&path, &ROBOT, &ReadOptions::default()).unwrap();
     lerobot::write(folder, &[run.clone(), run], layout, &[logs::Channel::Velocity]);
 }
@@ -147,7 +154,7 @@ fn rostopic(_: &Path) -> Vec<Vec<u8>> {
         "%time,field.header.stamp,field.name0,field.name1,field.position0,field.position1,\
                     field.effort0,field.effort1\n"
             .to_owned();
-    for k in 0..50 {
+    for k in 0..12 {
         let (q, tau) = (f64::from(k).sin(), f64::from(k).cos());
         writeln!(text, "{k},{}000000,j2,j1,{q:.4},{tau:.4},{tau:.3},{q:.3}", 1000 + 10 * k)
             .unwrap();
@@ -156,9 +163,7 @@ fn rostopic(_: &Path) -> Vec<Vec<u8>> {
 }
 
 fn mesh(folder: &Path) -> Vec<Vec<u8>> {
-    let visual = r#"<geometry><mesh filename="part.stl" scale="1 1 1"/></geometry>"#;
-    let shape = r#"<geometry><box size="0.1 0.2 0.3"/></geometry>"#;
-    std::fs::write(folder.join("mesh.urdf"), robots::URDF.replace(shape, visual)).unwrap();
+    std::fs::write(folder.join("mesh.urdf"), ONE_LINK).unwrap();
     let text =
         b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n\
                  endloop\nendfacet\nendsolid a\n";

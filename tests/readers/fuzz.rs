@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use checks::arms::generator;
 use checks::spliced::spliced;
-use checks::watch::{Watch, thread_time};
+use checks::watch::{ThreadClock, Watch};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use tempfile::TempDir;
@@ -57,7 +57,7 @@ impl<'a> Target<'a> {
         let folder =
             if memory.is_dir() { tempfile::tempdir_in(memory) } else { tempfile::tempdir() }
                 .unwrap();
-        let seeds = (reader.seeds)(folder.path());
+        let seeds = reader.parsed.unwrap_or(reader.seeds)(folder.path());
         Self { reader, folder, seeds }
     }
 
@@ -89,11 +89,11 @@ impl<'a> Target<'a> {
     }
 
     /// Reads the input of a seed.
-    fn tried(&self, seed: u64, outcome: &mut Outcome) {
+    fn tried(&self, seed: u64, clock: &mut ThreadClock, outcome: &mut Outcome) {
         let input = self.input(seed);
-        let start = thread_time();
+        let start = clock.now();
         let ended = catch_unwind(AssertUnwindSafe(|| self.fuzz_target(&input)));
-        let took = thread_time().zip(start).map_or(Duration::ZERO, |(end, start)| end - start);
+        let took = clock.now().zip(start).map_or(Duration::ZERO, |(end, start)| end - start);
         let name = self.reader.name;
         match ended {
             Ok(Ok(())) => outcome.read += 1,
@@ -117,13 +117,13 @@ pub fn fuzz(reader: &Reader, first: u64, inputs: u64) -> Outcome {
     let work = || {
         let mut outcome = Outcome::default();
         let target = Target::new(reader);
-        let watch = Watch::start(reader.name);
+        let (watch, mut clock) = (Watch::start(reader.name), ThreadClock::of_this_thread());
         outcome.defects.extend(target.check().err());
         loop {
             let from = next.fetch_add(PIECE, Ordering::Relaxed);
             for seed in from..(from + PIECE).min(first + inputs) {
                 watch.begin(seed);
-                target.tried(seed, &mut outcome);
+                target.tried(seed, &mut clock, &mut outcome);
             }
             if from >= first + inputs {
                 return outcome;

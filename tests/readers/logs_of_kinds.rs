@@ -21,7 +21,7 @@ use rand_chacha::ChaCha8Rng;
 use robot::Robot;
 use zip::{ZipArchive, ZipWriter, write::SimpleFileOptions};
 
-use super::{Reader, robots, tables};
+use super::{Reader, Seeds, robots, tables};
 
 pub static ROBOT: LazyLock<Robot> = LazyLock::new(|| Robot::from_urdf(robots::URDF).unwrap());
 
@@ -31,11 +31,13 @@ pub fn readers() -> Vec<Reader> {
         file: "run",
         short: 1500,
         seeds,
+        parsed: None,
         change,
         read,
         parse: |path| parse_with(path, &ReadOptions::default()),
         words,
     };
+    let with = |parsed: Seeds, reader| Reader { parsed: Some(parsed), ..reader };
     let arrays = |name, words, seeds, change| Reader {
         read: read_arrays,
         parse: |path| parse_with(path, &arrays_of_joints()),
@@ -43,10 +45,22 @@ pub fn readers() -> Vec<Reader> {
     };
     let binary = |bytes: &[u8], random: &mut ChaCha8Rng| mutated::bytes(bytes, random);
     vec![
-        of("CSV", TEXT, |_| vec![csv().into_bytes()], robots::changed_text),
-        of("gzip", &["\x1f"], |_| vec![gzip(csv().as_bytes())], packed),
-        of("zstd", &["(\u{fd}"], |_| vec![zstd(csv().as_bytes())], packed),
-        of("Parquet", tables::PARQUET, parquet, tables::changed),
+        with(
+            |_| vec![rows(FEW).into_bytes()],
+            of("CSV", TEXT, |_| vec![csv().into_bytes()], robots::changed_text),
+        ),
+        with(
+            |_| vec![gzip(rows(FEW).as_bytes())],
+            of("gzip", &["\x1f"], |_| vec![gzip(csv().as_bytes())], packed),
+        ),
+        with(
+            |_| vec![zstd(rows(FEW).as_bytes())],
+            of("zstd", &["(\u{fd}"], |_| vec![zstd(csv().as_bytes())], packed),
+        ),
+        with(
+            |folder| parquet(folder, &rows(FEW)),
+            of("Parquet", tables::PARQUET, |folder| parquet(folder, &csv()), tables::changed),
+        ),
         arrays("Parquet of lists", tables::PARQUET, parquet_of_lists, tables::changed),
         of("MCAP", BAG, |_| golden(&["mcap_none.mcap", "mcap_zstd.mcap", "mcap_lz4.mcap"]), binary),
         of("SQLite", BAG, |_| golden(&["sqlite_bag.db3", "sqlite_small_pages.db3"]), binary),
@@ -119,6 +133,9 @@ const HDF5: &[&str] =
 /// Names of arrays and first bytes of elements of MATLAB.
 const MATLAB: &[&str] = &["\x0e\0\0\0", "\x0f\0\0\0", "\x09\0\0\0", "time", "q", "MI", "IM"];
 
+/// Rows that say as much as many.
+const FEW: u32 = 12;
+
 /// Two joints for a second and a half.
 fn csv() -> String {
     rows(150)
@@ -145,9 +162,9 @@ pub fn golden(names: &[&str]) -> Vec<Vec<u8>> {
     names.iter().map(|name| std::fs::read(folder.join(name)).unwrap()).collect()
 }
 
-fn parquet(folder: &Path) -> Vec<Vec<u8>> {
+fn parquet(folder: &Path, text: &str) -> Vec<Vec<u8>> {
     let path = folder.join("run.csv");
-    std::fs::write(&path, csv()).unwrap();
+    std::fs::write(&path, text).unwrap();
     let run = read_run(&path, &ROBOT, &ReadOptions::default()).unwrap();
     logs::write_parquet(&path, &run).unwrap();
     vec![std::fs::read(&path).unwrap()]

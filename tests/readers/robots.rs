@@ -26,6 +26,27 @@ pub const URDF: &str = r#"<robot name="arm">
 </robot>
 "#;
 
+/// A robot.toml of the two joints.
+const SETTINGS: &str = r#"urdf = "robot.urdf"
+gravity_m_per_s2 = [0.0, 0.0, -9.81]
+control_rate_hz = 500.0
+sensing = "link"
+
+[joint.j1]
+rotor_inertia_kg_m2 = 0.1
+kp_nm_per_rad = 400.0
+kd_nm_s_per_rad = 20.0
+
+[joint.j2]
+rotor_inertia_kg_m2 = 0.05
+kp_nm_per_rad = 200.0
+kd_nm_s_per_rad = 10.0
+
+[gains.soft]
+kp_nm_per_rad = [100.0, 50.0]
+kd_nm_s_per_rad = [10.0, 5.0]
+"#;
+
 /// Words of descriptions of robots.
 const XML: &[&str] = &[
     "<joint name=\"j1\" type=\"continuous\">",
@@ -79,6 +100,7 @@ pub fn readers() -> Vec<Reader> {
         file,
         short: 1500,
         seeds,
+        parsed: None,
         change: changed_text,
         read,
         parse: |path| Robot::load(path).map(drop).map_err(|e| e.to_string()),
@@ -91,11 +113,17 @@ pub fn readers() -> Vec<Reader> {
             std::fs::copy(from.join("classes.xml"), folder.join("classes.xml")).unwrap();
             vec![std::fs::read(from.join("arm.xml")).unwrap()]
         }),
-        of("robot.toml", "input.toml", TOML, |folder| {
-            let from = workspace_root().join("robots/so101");
-            std::fs::copy(from.join("robot.urdf"), folder.join("robot.urdf")).unwrap();
-            vec![std::fs::read(from.join("robot.toml")).unwrap()]
-        }),
+        Reader {
+            parsed: Some(|folder| {
+                std::fs::write(folder.join("robot.urdf"), URDF).unwrap();
+                vec![SETTINGS.as_bytes().to_vec()]
+            }),
+            ..of("robot.toml", "input.toml", TOML, |folder| {
+                let from = workspace_root().join("robots/so101");
+                std::fs::copy(from.join("robot.urdf"), folder.join("robot.urdf")).unwrap();
+                vec![std::fs::read(from.join("robot.toml")).unwrap()]
+            })
+        },
         of("extended", "input.toml", TOML, extended),
     ]
 }

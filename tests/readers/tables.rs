@@ -45,6 +45,7 @@ pub fn readers() -> Vec<Reader> {
         file: "input.parquet",
         short: 800,
         seeds,
+        parsed: None,
         change: changed,
         read,
         parse: read,

@@ -17,6 +17,9 @@ use std::path::Path;
 
 use rand_chacha::ChaCha8Rng;
 
+/// Puts what inputs refer to into a folder, and gives good inputs.
+pub type Seeds = fn(&Path) -> Vec<Vec<u8>>;
+
 /// A reader and what it is tried on.
 pub struct Reader {
     /// What it reads.
@@ -26,7 +29,9 @@ pub struct Reader {
     /// Inputs of the short round.
     pub short: u64,
     /// Puts files that inputs refer to into the folder, and gives good inputs.
-    pub seeds: fn(&Path) -> Vec<Vec<u8>>,
+    pub seeds: Seeds,
+    /// Shorter ones where those take long, for rounds that read an input and no more.
+    pub parsed: Option<Seeds>,
     /// Makes a few mistakes in a good input.
     pub change: fn(&[u8], &mut ChaCha8Rng) -> Vec<u8>,
     /// Reads the file and goes on to where it is used.

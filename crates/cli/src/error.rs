@@ -223,6 +223,9 @@ fn of_log(log: &LogError) -> Option<&'static str> {
         LogError::LooksLikeDegrees { .. } => {
             Some("in the column map: position = { column = \"...\", unit = \"deg\" }")
         }
+        LogError::OtherClock { .. } => {
+            Some("a column map (--map) names the unit: time = { column = \"...\", unit = \"...\" }")
+        }
         LogError::Impossible { .. } => {
             Some("take these rows out of the file, or record without what wrote them")
         }

@@ -216,6 +216,21 @@ pub enum LogError {
         /// Samples of time.
         expected: usize,
     },
+    /// A run does not count in seconds, or another one.
+    #[error("{of_run}: its rows are {step_s:.3e} s apart, those of {of_other} {other_step_s:.3e} s; {}",
+        unit_of_time(*unit), of_run = of_run(run), of_other = of_run(other))]
+    OtherClock {
+        /// The run.
+        run: String,
+        /// Usual time between its rows (s).
+        step_s: f64,
+        /// The run whose rows are furthest from that.
+        other: String,
+        /// Usual time between the rows of the other (s).
+        other_step_s: f64,
+        /// The unit that its time looks like.
+        unit: Option<&'static str>,
+    },
     /// A run is too short for the filter.
     #[error(
         "{of_run}: its longest piece without a gap is {found_s:.3} s, at least {expected_s:.3} s were expected \
@@ -237,6 +252,12 @@ impl LogError {
     pub fn may_be_normalised(&self) -> bool {
         matches!(self, Self::LooksLikeDegrees { path, found, .. } if !or_normalised(path, *found).is_empty())
     }
+}
+
+/// What time looks like where its rows are too far apart.
+fn unit_of_time(unit: Option<&'static str>) -> String {
+    let looks = |unit| format!("its time looks like {unit}, seconds were expected");
+    unit.map_or_else(|| "times of both in seconds were expected".to_owned(), looks)
 }
 
 /// What a position `found` in a file may be besides degrees. A dataset of `LeRobot` is a folder.

@@ -24,6 +24,14 @@ impl Curve {
         }
     }
 
+    /// Bounds of the magnitude of a joint's acceleration (rad/s² or m/s²) and of its derivative, where they are known.
+    pub(crate) fn steepest(&self, joint: usize) -> Option<[f64; 2]> {
+        match self {
+            Self::Harmonics(curve) => Some(curve.steepest(joint)),
+            Self::RisingSine(_) | Self::Knots(_) => None,
+        }
+    }
+
     /// Times from 0 to `until` (s), so dense that the curve hardly bends between two.
     pub(crate) fn instants(&self, until: f64) -> Box<dyn Iterator<Item = f64> + '_> {
         let even = |highest_hz: f64| {

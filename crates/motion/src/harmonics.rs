@@ -41,6 +41,18 @@ impl Harmonics {
         x
     }
 
+    /// Bounds of the magnitude of a joint's acceleration and of its derivative:
+    ///
+    /// ```text
+    /// sum w_k² a_k,  sum w_k³ a_k,   a_k = sqrt(sin_k² + cos_k²)
+    /// ```
+    pub(crate) fn steepest(&self, joint: usize) -> [f64; 2] {
+        self.joints[joint].terms.iter().fold([0.0; 2], |[qdd, jerk], term| {
+            let (w, amplitude) = (TAU * term.hz, term.sin.hypot(term.cos));
+            [qdd + w * w * amplitude, jerk + w * w * w * amplitude]
+        })
+    }
+
     pub(crate) fn highest_hz(&self) -> f64 {
         let terms = self.joints.iter().flat_map(|series| &series.terms);
         terms.map(|term| term.hz).fold(0.0, f64::max)

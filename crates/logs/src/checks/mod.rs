@@ -1,5 +1,6 @@
-//! Impossible samples, positions in degrees, and the repair of clocks and full turns.
+//! Impossible samples, positions in degrees, clocks that do not count in seconds, and the repair of clocks and full turns.
 
+pub(crate) mod clocks;
 pub(crate) mod degrees;
 pub(crate) mod even_clock;
 pub(crate) mod impossible;

@@ -5,7 +5,7 @@ use crate::signals::{
     agreement::Agreement, differentiate::differentiate, filter::LowPass, noise::JointNoise,
 };
 use crate::{
-    checks::saturation::saturation,
+    checks::{clocks::compare_clocks, saturation::saturation},
     error::LogError,
     runs::{
         duplicate::duplicate_of,
@@ -57,10 +57,11 @@ pub struct PrepareSettings {
 ///
 /// # Errors
 ///
-/// [`LogError::NoRuns`], [`LogError::JointsDiffer`], [`LogError::WrongLength`],
+/// [`LogError::NoRuns`], [`LogError::JointsDiffer`], [`LogError::WrongLength`], [`LogError::OtherClock`],
 /// [`LogError::CutoffOutOfRange`] and [`LogError::RunTooShort`].
 pub fn prepare(runs: &[Run], settings: &PrepareSettings) -> Result<Prepared, LogError> {
     check_runs(runs)?;
+    compare_clocks(runs)?;
     let split = |fill: Fill| -> Vec<UniformRun> {
         runs.iter().enumerate().flat_map(|(index, run)| uniform_pieces(run, index, fill)).collect()
     };

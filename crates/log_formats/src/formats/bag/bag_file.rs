@@ -6,7 +6,7 @@ use std::{
 
 use crate::{
     common::{
-        bounds::too_many_rows,
+        bounds::{MOST_ENTRIES, too_many_rows},
         damage::Damage,
         error::FormatError,
         sha256::sha256_of_files,
@@ -142,13 +142,18 @@ impl TopicStates<'_> {
 }
 
 impl MessageSink for TopicStates<'_> {
-    fn add_topic(&mut self, topic: &Topic) {
+    fn add_topic(&mut self, topic: &Topic) -> Result<(), FormatError> {
         if self.kind_of(topic).is_some() {
             self.by_topic.entry(topic.name.clone()).or_insert_with(JointStates::new);
         } else {
             let named = format!("{} ({}, {})", topic.name, topic.kind, topic.encoding);
             self.others.insert(named.replace(char::is_control, "?"));
         }
+        if self.by_topic.len() + self.others.len() > MOST_ENTRIES {
+            let reason = format!("it has more than {MOST_ENTRIES} topics");
+            return Err(FormatError::broken(self.path, "bag", &reason));
+        }
+        Ok(())
     }
 
     fn wants(&self, topic: &Topic) -> bool {

@@ -22,7 +22,11 @@ pub(crate) struct Message<'a> {
 /// Receives the topics and messages of a bag.
 pub(crate) trait MessageSink {
     /// Receives a topic, before its messages.
-    fn add_topic(&mut self, topic: &Topic);
+    ///
+    /// # Errors
+    ///
+    /// [`FormatError::Broken`] where there are more topics than a bag may have.
+    fn add_topic(&mut self, topic: &Topic) -> Result<(), FormatError>;
 
     /// Whether the messages of a topic are wanted. Other messages may be skipped.
     fn wants(&self, topic: &Topic) -> bool;

@@ -89,7 +89,7 @@ impl Reader<'_> {
                 let kind = self.schemas.get(&schema).cloned().unwrap_or_default();
                 let (name, encoding) = (topic.to_owned(), encoding.to_owned());
                 let topic = Topic { name, kind, encoding };
-                self.sink.add_topic(&topic);
+                self.sink.add_topic(&topic)?;
                 self.topics.insert(id, topic);
             }
             McapRecord::Message { channel, recorded_ns, data } => match self.topics.get(&channel) {

@@ -135,7 +135,10 @@ impl Bag<'_> {
             }
             Ok(())
         })?;
-        topics.values().for_each(|topic| self.sink.add_topic(topic));
+        topics
+            .values()
+            .try_for_each(|topic| self.sink.add_topic(topic))
+            .map_err(Trouble::Refused)?;
         Ok(topics)
     }
 
