@@ -14,8 +14,8 @@ use crate::program::run;
 
 /// The first trials of the set, without their truth.
 fn export(folder: &Path, name: &str, arguments: &[&str]) {
-    let all = [&["export", "--set", "smoke", "--first", "3", "--out", name, "--quiet"], arguments]
-        .concat();
+    let few: &[&str] = if arguments.contains(&"--first") { &[] } else { &["--first", "3"] };
+    let all = [&["export", "--set", "smoke", "--out", name, "--quiet"], few, arguments].concat();
     let answer = run(folder, &all);
     assert_eq!((answer.code, answer.err.as_str()), (0, ""), "{all:?}");
 }
@@ -100,6 +100,47 @@ fn nothing_of_the_truth_is_in_the_folder_of_a_set() {
     }
     let names: Vec<&str> = shown.keys().filter_map(|path| path.to_str()).collect();
     assert!(names.iter().all(|name| !name.contains("sheet") && !name.contains("truth")));
+}
+
+/// Bytes of an npz file of columns that are stored as they are: head and values of each, and what a zip says of it.
+fn npz_bytes(rows: usize, columns: &[String]) -> usize {
+    let [array_head, local_head, central_head, end] = [128, 30, 46, 22];
+    let each = |name: &String| {
+        array_head + 8 * rows + local_head + central_head + 2 * (name.len() + ".npy".len())
+    };
+    end + columns.iter().map(each).sum::<usize>()
+}
+
+#[test]
+fn sizes_of_files_follow_from_rows_and_columns_and_no_trial_from_the_others() {
+    let folder = tempfile::tempdir().unwrap();
+    export(folder.path(), "set", &[]);
+    let set = folder.path().join("set");
+    let manifest = json_of(&set.join("manifest.json"));
+    let trials = manifest["trials"].as_array().unwrap();
+    for trial in trials {
+        let joints: Vec<&str> =
+            trial["joints"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
+        for log in trial["logs"].as_array().unwrap().iter().chain([&trial["held_out"]]) {
+            let channels = log["channels"].as_array().unwrap().iter().filter_map(Value::as_str);
+            let of_joints = channels.flat_map(|c| joints.iter().map(move |j| format!("{j}.{c}")));
+            let columns: Vec<String> =
+                std::iter::once("time".to_owned()).chain(of_joints).collect();
+            let rows = log["rows"].as_u64().unwrap() as usize;
+            let bytes = fs::metadata(set.join(log["npz"].as_str().unwrap())).unwrap().len();
+            assert_eq!(bytes as usize, npz_bytes(rows, &columns), "{log}");
+        }
+    }
+    // Neither number nor order of the trials is in them: those of a shorter set are the same, whatever they hide.
+    export(folder.path(), "shorter", &["--first", "2"]);
+    let shorter = files(&folder.path().join("shorter"));
+    let all = files(&set);
+    let same = |(path, file): (&PathBuf, &(Vec<u8>, SystemTime))| {
+        path.ends_with("manifest.json") || all.get(path) == Some(file)
+    };
+    assert!(shorter.len() > 10 && shorter.iter().all(same));
+    let named = trials.iter().map(|trial| trial["name"].as_str().unwrap());
+    assert!(named.eq(["trial_001", "trial_002", "trial_003"]));
 }
 
 #[test]

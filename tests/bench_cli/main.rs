@@ -36,6 +36,7 @@ mod named_files;
 #[path = "../cli/power_loss.rs"]
 mod power_loss;
 mod program;
+mod replay_answers;
 mod scenarios;
 #[cfg(target_os = "linux")]
 mod slurm;

@@ -2,6 +2,7 @@
 """CauseBench with all entrants that can run here: the set, the answers, the drifts, the scores, the page.
 
     tests/benches/causebench.py PLUMBLINE PLUMBLINE_BENCH --set smoke --out OUT
+    tests/benches/causebench.py PLUMBLINE PLUMBLINE_BENCH --set recorded --data DIR --out OUT
 
 PLUMBLINE and PLUMBLINE_BENCH are the programs. Entrants run by the Python that runs this script, two at a time; one whose
 packages are absent is left out with a message. OUT gets set/, set.truth.json, answers/NAME/, drifts/NAME.json,
@@ -9,6 +10,7 @@ scores/NAME.json and benchmark.md, which is printed.
 """
 
 import argparse
+import importlib.metadata
 import os
 import subprocess
 import sys
@@ -16,7 +18,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-# Of each entrant its script, what it is given beside set and answers, and its place on the page is that in this list.
+# Of each entrant its script, and what it is given beside set and answers.
 ENTRANTS = {
     "plumbline": ["plumbline.py", "PROGRAM"],
     "least_squares": ["least_squares.py"],
@@ -28,6 +30,26 @@ ENTRANTS = {
     "nominal": ["nominal.py"],
     "coulomb": ["coulomb.py"],
 }
+
+
+# The packages whose versions the page tells.
+PACKAGES = {
+    "least_squares": ["pin", "numpy"],
+    "figaroh": ["figaroh", "pin"],
+    "sysid_all": ["mujoco"],
+    "sysid_oracle": ["mujoco"],
+    "gaussian_process": ["scikit-learn"],
+    "neural_network": ["scikit-learn"],
+    "nominal": ["mujoco"],
+}
+
+
+def program_of(name, options):
+    """What answers, with versions."""
+    if name == "plumbline":
+        version = run([options.plumbline, "--version"]).stdout.strip()
+        return f"{version}, {options.commit}" if options.commit else version
+    return ", ".join(f"{one} {importlib.metadata.version(one)}" for one in PACKAGES.get(name, []))
 
 
 def run(command, **more):
@@ -49,7 +71,9 @@ def enter(name, options):
     drifts = out / "drifts" / f"{name}.json"
     replayed = run([sys.executable, HERE / "replay_answers.py", out / "set", answers, truth, drifts])
     replay = ["--replay", drifts] if replayed.returncode == 0 else []
-    scored = run([options.bench, "score", out / "set", answers, "--truth", truth, *replay, "--json"])
+    words = program_of(name, options)
+    program = ["--program", words] if words else []
+    scored = run([options.bench, "score", out / "set", answers, "--truth", truth, *replay, *program, "--json"])
     if scored.returncode > 1:
         return None, f"{name}: {scored.stderr.strip()}"
     scores = out / "scores" / f"{name}.json"
@@ -63,13 +87,16 @@ parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.R
 parser.add_argument("plumbline", type=Path)
 parser.add_argument("bench", type=Path)
 parser.add_argument("--set", default="smoke")
+parser.add_argument("--data", type=Path, help="folder of the recorded logs, for the set recorded")
+parser.add_argument("--commit", help="commit of PLUMBLINE, for the page")
 parser.add_argument("--out", type=Path, required=True)
 parser.add_argument("--entrants", nargs="+", choices=ENTRANTS, default=list(ENTRANTS))
 options = parser.parse_args()
 for folder in ("answers", "drifts", "scores"):
     (options.out / folder).mkdir(parents=True, exist_ok=True)
 if not (options.out / "set/manifest.json").exists():
-    made = run([options.bench, "export", "--set", options.set, "--out", options.out / "set", "--quiet"])
+    data = ["--data", options.data] if options.data else []
+    made = run([options.bench, "export", "--set", options.set, *data, "--out", options.out / "set", "--quiet"])
     if made.returncode != 0:
         sys.exit(made.stderr)
 with ThreadPoolExecutor(2) as pool:

@@ -5,8 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use benchmark::{
-    BenchLog, BenchManifest, BenchScores, BenchSet, BenchTrial, BenchTruth, MANIFEST_SCHEMA,
-    ScoreRow, TrialTruth,
+    BenchBoard, BenchLog, BenchManifest, BenchScores, BenchSet, BenchTrial, BenchTruth,
+    MANIFEST_SCHEMA, ScoreRow, TrialTruth,
 };
 use catalogue::EffectKind as E;
 use population::{Strength, TruthSheet};
@@ -330,4 +330,65 @@ fn the_truth_of_another_set_is_refused() {
     let told = score(&truth);
     assert!(told.contains("SHA-256") && told.contains("sealed with was expected"), "{told}");
     assert!(score(&set.folder.path().join("none")).contains("the truth of a set"));
+}
+
+#[test]
+fn drifts_are_medians_over_the_trials_that_have_one() {
+    let set = MadeUpSet::usual();
+    set.say(1, "{}");
+    set.say(2, "{}");
+    let [truth, drifts] = ["truth", "drifts"].map(|name| set.folder.path().join(name));
+    let score = |text: &str| {
+        fs::write(&drifts, text).unwrap();
+        BenchScores::new(set.folder.path(), &set.answers(), &truth, Some(&drifts))
+    };
+    let both = r#"{"trials": {"trial_1": [0.01, 0.1, 0.5], "trial_2": [0.03, 0.3, 1.5], "other": [9, 9, 9]}}"#;
+    let all = score(both).unwrap().rows[0].clone();
+    [0.02, 0.2, 1.0].iter().zip(&all.replay).for_each(|(drift, found)| close(found.value, *drift));
+    let one = score(r#"{"trials": {"trial_2": [0.03, 0.3, 1.5]}}"#).unwrap().rows[0].clone();
+    close(one.replay[2].value, 1.5);
+    assert_eq!(one.replay[2].of, 1);
+    for wrong in [r#"{"trials": {"trial_1": [0.01, 0.1]}}"#, r#"{"drifts": {}}"#, ""] {
+        let told = score(wrong).unwrap_err().to_string();
+        assert!(told.contains("drifts as replay_answers.py writes them"), "{told}");
+    }
+}
+
+#[test]
+fn the_page_has_a_table_a_set_and_tells_where_a_peer_is_better() {
+    let set = MadeUpSet::usual();
+    set.say(2, "{}");
+    set.say(1, r#"{"names": [{"effect": "backlash", "joint": "elbow"}]}"#);
+    let wrong = set.score();
+    set.say(1, RIGHT);
+    set.predict("p.csv", 1.0);
+    let right = set.score();
+    let called = |scores: &BenchScores, entrant: &str, set| BenchScores {
+        entrant: entrant.to_owned(),
+        set,
+        program: Some(format!("{entrant} | 1.0")),
+        ..scores.clone()
+    };
+    let page = BenchBoard::new(vec![
+        called(&wrong, "a_peer", BenchSet::Core),
+        called(&right, "a_peer", BenchSet::Smoke),
+        called(&right, "plumbline", BenchSet::Core),
+        called(&wrong, "plumbline", BenchSet::Smoke),
+    ])
+    .page();
+    let [smoke, core] =
+        ["`smoke`, the first 2 of 12 trials:", "`core`, the first 2 of 120 trials:"]
+            .map(|set| page.find(set).unwrap());
+    assert!(smoke < core);
+    let f1 = |best: &str, own: &str| format!("| name: F1 | {best} | {own} |");
+    let words = [&right, &wrong].map(|scores| scores.rows[0].name.words());
+    let [bold, plain] = [format!("**{}**", words[0]), words[1].clone()];
+    assert!(page[smoke..core].contains(&f1(&plain, &bold)), "{page}");
+    assert!(page[core..].contains(&f1(&bold, &plain)), "{page}");
+    let behind = format!("- name: F1: a peer {}; Plumbline {}\n", words[0], words[1]);
+    assert!(page[smoke..core].contains(&behind) && !page[core..].contains(&behind), "{page}");
+    assert!(page[core..].contains("- in none of the tasks\n"), "{page}");
+    // Nobody has a drift, so that no row asks for it, and words of others end no cell.
+    assert!(!page.contains("| replay: 50 ms |"), "{page}");
+    assert!(page.contains("| a peer | a peer / 1.0 | 4.00 | - |"), "{page}");
 }

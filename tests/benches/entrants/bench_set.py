@@ -1,17 +1,24 @@
 """A set of CauseBench for the entrants beside this file: trials read, signals differentiated, answers written.
 
-Nothing of Plumbline is used: NumPy alone, and MuJoCo for the torque of an MJCF.
+Nothing of Plumbline is used: NumPy alone, Pinocchio for the bodies of an arm, and MuJoCo for the torque of an MJCF.
 """
 
 import json
 import os
 import sys
 import time
+import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import numpy as np
 
 CUTOFF_HZ = 10.0  # Of the motion that is differentiated, and of every signal that is compared with it.
+
+
+# What a regression may name at a joint: effect, parameter, and the attribute of an MJCF joint that has its described value.
+DRIVE = [("IN03", "inertia", "armature"), ("FR01", "viscous", "damping"), ("FR02", "level", "frictionloss"), ("DR03", "offset", None)]
+# A parameter is named that many deviations and that share of the joint's effort off; its interval is Z deviations wide.
+STANDARD_ERRORS, LEAST_SHARE, Z = 3.0, 0.02, 1.96
 
 
 def low_pass(x, step, cutoff_hz=CUTOFF_HZ):
@@ -72,6 +79,81 @@ class Trial:
         name = f"{self.name}.model.xml"
         (self.answers / name).write_text(text)
         return name
+
+
+class DescribedArm:
+    """The bodies of a trial for Pinocchio (`model`), and its drives as the MJCF describes them."""
+
+    dry = staticmethod(np.sign)  # Dry friction over its level, by the velocity.
+
+    def __init__(self, trial):
+        import pinocchio
+
+        text = trial.urdf.read_text().replace('type="continuous"', 'type="revolute"')
+        self.model, self.joints = pinocchio.buildModelFromXML(text), trial.joints
+        self.xml = ET.fromstring(trial.mjcf.read_text())
+        option = self.xml.find("option")
+        gravity = option.get("gravity", "0 0 -9.81") if option is not None else "0 0 -9.81"
+        self.model.gravity.linear = np.array([float(x) for x in gravity.split()])
+        self.at = [self.model.joints[self.model.getJointId(name)].idx_v for name in trial.joints]
+        self.in_xml = {one.get("name"): one for one in self.xml.iter("joint")}
+
+    def described(self, joint, attribute):
+        """The described value of an attribute of a joint, 0 where there is none."""
+        at = self.in_xml.get(joint)
+        return 0.0 if attribute is None or at is None else float((at.get(attribute) or "0").split()[0])
+
+    def motion(self, log):
+        """q, qd and qdd, each [row, joint of the model]."""
+        every = [np.zeros((len(log.q), self.model.nv)) for _ in range(3)]
+        for one, of in zip(every, (log.q, log.qd, log.qdd)):
+            one[:, self.at] = of
+        return every
+
+    def name(self, logs, found):
+        """Names of the drives' parameters, and their values into the MJCF.
+
+        `found` has value, standard deviation and whether it may be named by (joint, effect).
+        """
+        every = [np.concatenate([getattr(log, key) for log in logs]) for key in ("qdd", "qd", "tau")]
+        names = []
+        for j, joint in enumerate(self.joints):
+            qdd, qd, tau = (one[:, j] for one in every)
+            rms = [np.sqrt((one**2).mean()) for one in (qdd, qd, self.dry(qd), np.ones(1))]
+            for share, (effect, parameter, attribute) in zip(rms, DRIVE):
+                if (joint, effect) not in found:
+                    continue
+                value, error, may_be_named = found[joint, effect]
+                described = self.described(joint, attribute)
+                off, least = abs(value - described), LEAST_SHARE * np.sqrt((tau**2).mean())
+                if attribute:
+                    self.in_xml[joint].set(attribute, repr(max(float(value), 0.0)))
+                if may_be_named and off > STANDARD_ERRORS * error and off * share > least:
+                    interval = [float(value - Z * error), float(value + Z * error)]
+                    size = {"parameter": parameter, "value": float(value), "interval": interval, "described": described}
+                    names.append({"effect": effect, "joint": joint, "sizes": [size]})
+        return names
+
+    def as_described(self, trial):
+        """The answer where no log has efforts: no name, and the torque of the described arm."""
+        import pinocchio
+
+        log, data = trial.held_out(), self.model.createData()
+        rows = zip(*self.motion(log))
+        tau = np.stack([pinocchio.rnea(self.model, data, *row)[self.at] for row in rows])
+        for j, joint in enumerate(self.joints):
+            drive = [log.qdd[:, j], log.qd[:, j], self.dry(log.qd[:, j]), 0.0]
+            tau[:, j] += sum(self.described(joint, one[2]) * signal for one, signal in zip(DRIVE, drive))
+        return {"names": [], "prediction": trial.predict(log, tau), "model": trial.hand_in(self.text())}
+
+    def text(self):
+        """The MJCF with what `name` found."""
+        return ET.tostring(self.xml, encoding="unicode")
+
+
+def sparse(log):
+    """Every which row of a log is taken: twice the cut-off of its signals."""
+    return max(1, round(1 / (2 * CUTOFF_HZ * log.step)))
 
 
 def answer_all(answer):

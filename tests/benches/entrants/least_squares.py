@@ -14,7 +14,6 @@ is 1.96 standard errors of independent rows.
 """
 
 import sys
-import xml.etree.ElementTree as ET
 
 try:
     import numpy as np
@@ -22,32 +21,17 @@ try:
 except ImportError as lack:
     sys.exit(f"skipped: {lack}; pip install numpy pin")
 
-from bench_set import CUTOFF_HZ, answer_all, low_pass
+from bench_set import DRIVE, DescribedArm, answer_all, low_pass, sparse
 
-STANDARD_ERRORS, LEAST_SHARE, Z = 3.0, 0.02, 1.96
 DEPENDENT = 1e-2  # Rest of a column beside the others, as a share of it.
 LEFT_OPEN, EMPTY = 5e-2, 1e-6
-SLOW = 1e-2  # v0 (rad/s).
-# Effect, parameter, and the attribute of an MJCF joint that has its described value.
-DRIVE = [("IN03", "inertia", "armature"), ("FR01", "viscous", "damping"), ("FR02", "level", "frictionloss"), ("DR03", "offset", None)]
+SLOW = 1e-2  # v0 (rad/s or m/s).
 
 
-class Arm:
+class Arm(DescribedArm):
     """The bodies of a trial, and its drives as described."""
 
-    def __init__(self, trial):
-        text = trial.urdf.read_text().replace('type="continuous"', 'type="revolute"')
-        self.model = pin.buildModelFromXML(text)
-        self.xml = ET.fromstring(trial.mjcf.read_text())
-        option = self.xml.find("option")
-        gravity = option.get("gravity", "0 0 -9.81") if option is not None else "0 0 -9.81"
-        self.model.gravity.linear = np.array([float(x) for x in gravity.split()])
-        self.data, self.joints = self.model.createData(), trial.joints
-        self.at = [self.model.joints[self.model.getJointId(name)].idx_v for name in trial.joints]
-        self.in_xml = {one.get("name"): one for one in self.xml.iter("joint")}
-
-    def described(self, joint, attribute):
-        return float((self.in_xml[joint].get(attribute) or "0").split()[0]) if attribute else 0.0
+    dry = staticmethod(lambda qd: np.tanh(qd / SLOW))
 
     def parameters(self):
         """The described value of every column."""
@@ -58,14 +42,13 @@ class Arm:
         """Columns [joint][row, column]: ten a body, then four a drive, joint by joint."""
         n, bodies = len(self.joints), 10 * self.model.nv
         all = np.zeros((n, len(log.q), bodies + 4 * n))
-        q, qd, qdd = (np.zeros((len(log.q), self.model.nv)) for _ in range(3))
-        for k, at in enumerate(self.at):
-            q[:, at], qd[:, at], qdd[:, at] = log.q[:, k], log.qd[:, k], log.qdd[:, k]
+        q, qd, qdd = self.motion(log)
+        data = self.model.createData()
         for row in range(len(q)):
-            y = pin.computeJointTorqueRegressor(self.model, self.data, q[row], qd[row], qdd[row])
+            y = pin.computeJointTorqueRegressor(self.model, data, q[row], qd[row], qdd[row])
             all[:, row, :bodies] = y[self.at]
         for j in range(n):
-            drive = [log.qdd[:, j], log.qd[:, j], np.tanh(log.qd[:, j] / SLOW), np.ones(len(q))]
+            drive = [log.qdd[:, j], log.qd[:, j], self.dry(log.qd[:, j]), np.ones(len(q))]
             all[j, :, bodies + 4 * j : bodies + 4 * j + 4] = np.stack(drive, axis=1)
         return all
 
@@ -99,7 +82,7 @@ def fit(arm, logs):
     """Parameters of all columns, their covariance, and the columns that have something of their own."""
     a, b = [], []
     for log in logs:
-        every = max(1, round(1 / (2 * CUTOFF_HZ * log.step)))
+        every = sparse(log)
         columns = arm.columns(log)
         a.append(np.stack([low_pass(one, log.step)[::every] for one in columns]))
         b.append(log.tau.T[:, ::every])
@@ -114,26 +97,19 @@ def fit(arm, logs):
 
 def answer(trial):
     arm, logs = Arm(trial), trial.logs()
+    if any(log.tau is None for log in logs):
+        return arm.as_described(trial)
     x, covariance, known = fit(arm, logs)
-    bodies, names = 10 * arm.model.nv, []
-    every = [np.concatenate([getattr(log, key) for log in logs]) for key in ("qdd", "qd", "tau")]
-    for j, joint in enumerate(trial.joints):
-        qdd, qd, tau = (one[:, j] for one in every)
-        rms = [np.sqrt((one**2).mean()) for one in (qdd, qd, np.tanh(qd / SLOW), np.ones(1))]
-        for k, (effect, parameter, attribute) in enumerate(DRIVE):
-            at = bodies + 4 * j + k
-            described, error = arm.described(joint, attribute), np.sqrt(covariance[at, at])
-            off = abs(x[at] - described)
-            if attribute:
-                arm.in_xml[joint].set(attribute, repr(max(float(x[at]), 0.0)))
-            if at in known and off > STANDARD_ERRORS * error and off * rms[k] > LEAST_SHARE * np.sqrt((tau**2).mean()):
-                interval = [float(x[at] - Z * error), float(x[at] + Z * error)]
-                size = {"parameter": parameter, "value": float(x[at]), "interval": interval, "described": described}
-                names.append({"effect": effect, "joint": joint, "sizes": [size]})
+    at = lambda j, k: 10 * arm.model.nv + 4 * j + k
+    found = {
+        (joint, effect): (x[at(j, k)], np.sqrt(covariance[at(j, k), at(j, k)]), at(j, k) in known)
+        for j, joint in enumerate(trial.joints)
+        for k, (effect, _, _) in enumerate(DRIVE)
+    }
+    names = arm.name(logs, found)
     held_out = trial.held_out()
     tau = (arm.columns(held_out) @ x).T
-    model = trial.hand_in(ET.tostring(arm.xml, encoding="unicode"))
-    return {"names": names, "prediction": trial.predict(held_out, tau), "model": model}
+    return {"names": names, "prediction": trial.predict(held_out, tau), "model": trial.hand_in(arm.text())}
 
 
 answer_all(answer)

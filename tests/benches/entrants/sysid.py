@@ -7,8 +7,8 @@
 
 Free are damping, frictionloss and armature of every joint and the mass of every body, from the description on, by
 least squares over at most 8 windows of 0.2 s that start at measured states; bounds are twice the torque of the joint, and
-0.3 to 3 of a mass. A parameter is named where its interval
-excludes the described value and what it changes is 2 % of the joint's effort, or 5 % of the mass.
+0.3 to 3 of a mass. What the drive of a joint has that stands in all logs stays as described. A parameter is named where its
+interval excludes the described value and what it changes is 2 % of the joint's effort, or 5 % of the mass.
 """
 
 import json
@@ -27,6 +27,7 @@ from bench_set import Log, answer_all, mjcf_torque
 WINDOW_S, MOST_WINDOWS, CUTOFF_HZ = 0.2, 8, 20.0
 KINDS = {"damping": ("FR01", "viscous"), "frictionloss": ("FR02", "level"), "armature": ("IN03", "inertia")}
 MASS = ("IN02", "mass")
+STANDS = 1e-3  # Speed (rad/s or m/s, root mean square) of a joint whose drive no log shows.
 
 
 def spec_of(trial):
@@ -82,7 +83,8 @@ def free(trial, spec, logs, truth):
     """Every parameter: its effect and place, value in the description, bounds, least change, and how a model gets it."""
     model = spec.compile()
     rms = {key: np.sqrt(np.mean(np.concatenate([getattr(log, key) for log in logs]) ** 2, axis=0)) for key in ("qd", "qdd", "tau")}
-    for j, joint in enumerate(trial.joints):
+    moving = [(j, joint) for j, joint in enumerate(trial.joints) if rms["qd"][j] > STANDS]
+    for j, joint in moving:
         dof = model.joint(joint).dofadr[0]
         for kind, (effect, parameter) in KINDS.items():
             torque = {"damping": rms["qd"][j], "frictionloss": 1.0, "armature": rms["qdd"][j]}[kind]

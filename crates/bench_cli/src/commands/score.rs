@@ -21,6 +21,9 @@ pub struct Arguments {
     /// Drifts of the models that are handed in, of tests/benches/replay_answers.py
     #[arg(long, value_name = "FILE")]
     replay: Option<PathBuf>,
+    /// The program that answered, with its version, for the page
+    #[arg(long, value_name = "WORDS")]
+    program: Option<String>,
     /// Print JSON instead of tables
     #[arg(long)]
     json: bool,
@@ -28,12 +31,13 @@ pub struct Arguments {
 
 /// Scores the answers to a set. An answer that is missing or cannot be used counts as nothing said, and is a gap.
 pub fn run(arguments: &Arguments) -> Result<BenchExitStatus, BenchError> {
-    let scores = BenchScores::new(
+    let mut scores = BenchScores::new(
         &arguments.folder,
         &arguments.answers,
         &arguments.truth,
         arguments.replay.as_deref(),
     )?;
+    scores.program = arguments.program.clone();
     if arguments.json {
         print_json(&scores)?;
     } else {

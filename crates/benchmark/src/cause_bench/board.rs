@@ -1,6 +1,6 @@
+use crate::cause_bench::bench_set::BenchSet;
 use crate::cause_bench::score_row::ScoreRow;
 use crate::cause_bench::scores::BenchScores;
-use crate::statistics::middle::Middle;
 
 /// The page without its tables.
 const PAGE: &str = include_str!("../../templates/cause_bench.md");
@@ -8,9 +8,16 @@ const PAGE: &str = include_str!("../../templates/cause_bench.md");
 /// The entrant whose losses the page tells.
 const OWN: &str = "plumbline";
 
-/// The scores of several entrants side by side.
+/// The scores of several entrants side by side, set by set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BenchBoard {
+    sets: Vec<SetBoard>,
+}
+
+/// The scores of entrants at one set.
+#[derive(Debug, Clone, PartialEq)]
+struct SetBoard {
+    set: BenchSet,
     entrants: Vec<BenchScores>,
 }
 
@@ -72,7 +79,7 @@ impl Task {
 
     fn takes_part(&self, row: &ScoreRow) -> bool {
         let names = row.true_names.items > 0;
-        names || !matches!(self.name, "name: F1" | "causes named" | "abstain")
+        names || !matches!(self.name, "name: F1" | "causes named" | "width" | "abstain")
     }
 }
 
@@ -80,36 +87,97 @@ impl BenchBoard {
     /// Of these scores, in their order behind those of Plumbline.
     pub fn new(mut entrants: Vec<BenchScores>) -> Self {
         entrants.sort_by_key(|one| one.entrant != OWN);
-        Self { entrants }
+        let of = |set: BenchSet| {
+            let here: Vec<BenchScores> =
+                entrants.iter().filter(|one| one.set == set).cloned().collect();
+            (!here.is_empty()).then_some(SetBoard { set, entrants: here })
+        };
+        Self { sets: BenchSet::ALL.into_iter().filter_map(of).collect() }
     }
 
     /// The page of the book, with the tables of these scores.
     pub fn page(&self) -> String {
-        let sections = [
-            ("set", self.set()),
-            ("tasks", self.tasks()),
-            ("behind", self.behind()),
-            ("cost", self.cost()),
-            ("names", self.by_side(|row| (row.true_names.items > 0).then(|| row.name.words()))),
-            ("efforts", self.by_side(|row| row.predict.value.map(|_| row.predict.words()))),
-        ];
+        let tasks: Vec<String> = self.sets.iter().map(SetBoard::section).collect();
+        let widest = self.sets.iter().filter(|one| one.names()).max_by_key(|one| one.count());
+        let unnamed = self.sets.iter().filter(|one| !one.names());
+        let sides: Vec<String> =
+            widest.into_iter().chain(unnamed).map(SetBoard::by_sides).collect();
+        let sections =
+            [("tasks", tasks.join("\n")), ("cost", self.cost()), ("sides", sides.join("\n"))];
         sections.iter().fold(PAGE.to_owned(), |page, (name, table)| {
             page.replace(&format!("<!-- {name} -->\n"), table)
         })
     }
 
-    /// The sets of the scores, each with the number of its trials.
-    fn set(&self) -> String {
-        let words = |one: &BenchScores| {
-            let count = one.rows.first().map_or(0, |row| row.count);
-            format!("Set `{}`, {count} trials.\n", one.set.name())
+    /// What entrants are, and their processor time, a column a set.
+    fn cost(&self) -> String {
+        let mut names: Vec<&str> = Vec::new();
+        for one in self.sets.iter().flat_map(|set| &set.entrants) {
+            if !names.contains(&one.entrant.as_str()) {
+                names.push(&one.entrant);
+            }
+        }
+        let row = |name: &&str| {
+            let of = |set: &SetBoard| set.entrants.iter().find(|one| one.entrant == *name).cloned();
+            let mut programs: Vec<String> = Vec::new();
+            for words in self.sets.iter().filter_map(of).filter_map(|one| one.program) {
+                if !programs.contains(&words) {
+                    programs.push(words);
+                }
+            }
+            let program = if programs.is_empty() { "-".to_owned() } else { programs.join("; ") };
+            let time = |set: &SetBoard| {
+                let row = of(set).and_then(|one| one.rows.first().cloned());
+                row.map_or_else(|| "-".to_owned(), |row| row.cost_s.words())
+            };
+            let times: Vec<String> = self.sets.iter().map(time).collect();
+            format!("| {} | {} | {} |\n", in_cell(name), in_cell(&program), times.join(" | "))
         };
-        let mut sets: Vec<String> = self.entrants.iter().map(words).collect();
-        sets.dedup();
-        sets.concat()
+        let rows: String = names.iter().map(row).collect();
+        let sets: Vec<String> =
+            self.sets.iter().map(|one| format!("`{}` (s)", one.set.name())).collect();
+        let line = "---|".repeat(sets.len());
+        format!("| entrant | program | {} |\n|---|---|{line}\n{rows}", sets.join(" | "))
+    }
+}
+
+impl SetBoard {
+    /// Number of trials.
+    fn count(&self) -> usize {
+        self.entrants.first().and_then(|one| one.rows.first()).map_or(0, |row| row.count)
     }
 
-    /// The first table: a row a task, a column an entrant, the best in bold.
+    /// Whether an entrant names anything that counts.
+    fn names(&self) -> bool {
+        self.entrants.iter().filter_map(|one| one.rows.first()).any(|row| row.true_names.items > 0)
+    }
+
+    /// The set, its tasks, and where an entrant is better than Plumbline.
+    fn section(&self) -> String {
+        let (set, count) = (self.set.name(), self.count());
+        let whole = self.set.population().map_or(count, |population| population.trials);
+        let trials =
+            if count < whole { format!("the first {count} of {whole}") } else { count.to_string() };
+        let [tasks, behind] = [self.tasks(), self.behind()];
+        format!(
+            "Set `{set}`, {trials} trials:\n\n{tasks}\nWhere an entrant is better than Plumbline:\n\n{behind}"
+        )
+    }
+
+    /// Names, where any count, and efforts by property of the trials.
+    fn by_sides(&self) -> String {
+        let names = self.by_side(|row| (row.true_names.items > 0).then(|| row.name.words()));
+        let efforts = self.by_side(|row| row.predict.value.map(|_| row.predict.words()));
+        let set = self.set.name();
+        let efforts = format!("nMSE of predicted efforts, set `{set}`:\n\n{efforts}");
+        if self.names() {
+            format!("F1 of names, set `{set}`:\n\n{names}\n{efforts}")
+        } else {
+            efforts
+        }
+    }
+
+    /// A row a task that anyone has a number of, a column an entrant, the best in bold.
     fn tasks(&self) -> String {
         let row = |task: &Task| {
             let best = self.entrants.iter().filter_map(|one| task.of(one)).fold(None, |best, x| {
@@ -128,7 +196,8 @@ impl BenchBoard {
             let cells: Vec<String> = self.entrants.iter().map(cell).collect();
             format!("| {} | {} |\n", task.name, cells.join(" | "))
         };
-        self.header("task") + &TASKS.iter().map(row).collect::<String>()
+        let has = |task: &&Task| self.entrants.iter().any(|one| task.of(one).is_some());
+        self.header("task") + &TASKS.iter().filter(has).map(row).collect::<String>()
     }
 
     /// Where an entrant is better than Plumbline, a line a task.
@@ -142,7 +211,7 @@ impl BenchBoard {
                 |one: &&BenchScores| task.of(one).is_some_and(|x| task.best.prefers(x, own_number));
             let told = |one: &BenchScores| {
                 let words = one.rows.first().map(task.words).unwrap_or_default();
-                format!("{} {words}", cell_name(&one.entrant))
+                format!("{} {words}", in_cell(&one.entrant))
             };
             let all: Vec<String> = self.entrants.iter().filter(better).map(told).collect();
             let own = own.rows.first().map(task.words)?;
@@ -151,17 +220,6 @@ impl BenchBoard {
         };
         let lines: String = TASKS.iter().filter_map(line).collect();
         if lines.is_empty() { "- in none of the tasks\n".to_owned() } else { lines }
-    }
-
-    fn cost(&self) -> String {
-        let row = |one: &BenchScores| {
-            let cost = one.rows.first().map_or_else(Middle::default, |row| row.cost_s);
-            format!("| {} | {} | {} |\n", cell_name(&one.entrant), cost.words(), cost.of)
-        };
-        let rows: String = self.entrants.iter().map(row).collect();
-        format!(
-            "| entrant | processor time (s) | trials answered with a time |\n|---|---|---|\n{rows}"
-        )
     }
 
     /// A table of one number by property of the trials, of the entrants that have it.
@@ -178,16 +236,16 @@ impl BenchBoard {
             format!("| {} ({}) | {} |\n", side.trials, side.count, cells.join(" | "))
         };
         let rows: String = sides.iter().map(row).collect();
-        Self { entrants }.header("trials") + &rows
+        Self { set: self.set, entrants }.header("trials") + &rows
     }
 
     fn header(&self, first: &str) -> String {
-        let names: Vec<String> = self.entrants.iter().map(|one| cell_name(&one.entrant)).collect();
+        let names: Vec<String> = self.entrants.iter().map(|one| in_cell(&one.entrant)).collect();
         format!("| {first} | {} |\n|---|{}\n", names.join(" | "), "---|".repeat(names.len()))
     }
 }
 
-/// The name of an entrant in a cell.
-fn cell_name(name: &str) -> String {
-    name.replace('_', " ").replace('|', "/")
+/// Words of an entrant in a cell.
+fn in_cell(words: &str) -> String {
+    words.replace('_', " ").replace('|', "/")
 }

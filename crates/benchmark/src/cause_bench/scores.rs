@@ -30,6 +30,9 @@ pub struct BenchScores {
     pub set: BenchSet,
     /// Name of the entrant: that of the folder with its answers.
     pub entrant: String,
+    /// The program that answered, with its version, as whoever scores it says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub program: Option<String>,
     /// What counts as nothing said, each in a sentence.
     pub faults: Vec<String>,
     /// The scores of all trials, then by arm, motion and other properties.
@@ -85,6 +88,7 @@ impl BenchScores {
             schema: SCORES_SCHEMA.to_owned(),
             set: manifest.set,
             entrant,
+            program: None,
             faults: faults.iter().map(ToString::to_string).collect(),
             rows: rows(&judged),
         })
