@@ -41,7 +41,7 @@ fn asymmetric_friction_and_coulomb_friction_with_an_offset_are_named_together() 
         let answer = against_nominal(&world.runs(3, 12.0, &noise, seed)).diagnosis;
         let said = named(&answer);
         if said.contains(&one) {
-            assert_eq!(said, [one.clone()], "{seed}");
+            assert_eq!(said, std::slice::from_ref(&one), "{seed}");
             assert!(
                 two.iter().all(|part| rivals(&answer, &one).contains(part)),
                 "{seed}: {said:?}"
