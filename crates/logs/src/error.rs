@@ -216,7 +216,7 @@ pub enum LogError {
         /// Samples of time.
         expected: usize,
     },
-    /// A run does not count in seconds, or another one.
+    /// Two runs whose times cannot both be in seconds.
     #[error("{of_run}: its rows are {step_s:.3e} s apart, those of {of_other} {other_step_s:.3e} s; {}",
         unit_of_time(*unit), of_run = of_run(run), of_other = of_run(other))]
     OtherClock {
