@@ -12,8 +12,10 @@ const ROBOT: &str = "urdf = \"arm.urdf\"\nsensing = \"motor\"\ntorque_source = \
     joint.shoulder = { rotor_inertia_kg_m2 = 0.1, kp_nm_per_rad = 400.0, kd_nm_s_per_rad = 20.0 }\n\
     joint.elbow = { rotor_inertia_kg_m2 = 0.1, kp_nm_per_rad = 200.0, kd_nm_s_per_rad = 10.0 }\n";
 
+/// In noise of 3 N m a log of one speed tells viscous from Coulomb friction in 3 of 20 cases (seeds 1 to 10 of both); in 2 N m
+/// in 7 of 26.
 const SENSORS: &str = "robot = \"arm.toml\"\nseed = 3\n\n[sensors]\neffort = \"commanded\"\n\
-    effort_noise_nm = { shoulder = 2.0, elbow = 2.0 }\n";
+    effort_noise_nm = { shoulder = 3.0, elbow = 3.0 }\n";
 
 const VISCOUS: &str = "viscous_friction = { joint = \"elbow\", viscous_nm_s_per_rad = 1.0 }";
 const COULOMB: &str = "coulomb_friction = { joint = \"elbow\", level_nm = 0.3 }";

@@ -1,6 +1,8 @@
 use std::borrow::Cow;
 
-use logs::{PrepareSettings, Prepared, Run, centre_commands, duplicate_of, prepare};
+use logs::{
+    PrepareSettings, Prepared, Run, centre_commands, compare_clocks, duplicate_of, prepare,
+};
 use robot::Robot;
 
 use crate::columns::common::Common;
@@ -124,6 +126,7 @@ pub(crate) fn with_inputs<T>(
     progress.stage("preparing the logs", 2);
     let t = &settings.thresholds;
     let (given, mut warnings) = without_repeats(robot, runs)?;
+    compare_clocks(&given)?;
     let inspected = inspect_logs(robot, &given, t);
     let runs = inspected.runs(&given);
     warnings.extend(inspected.warnings.iter().cloned());

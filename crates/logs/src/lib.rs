@@ -26,6 +26,7 @@ mod runs;
 mod signals;
 mod writing;
 
+pub use checks::clocks::compare_clocks;
 pub use error::LogError;
 pub use info::{JointInfo, LogInfo, TimeGap, log_info};
 pub use log_formats::{Excerpt, FormatError, LerobotDataset, check_parquet_nesting};

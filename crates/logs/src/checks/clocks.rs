@@ -17,7 +17,7 @@ const OTHER_RATE: f64 = 10.0;
 /// # Errors
 ///
 /// [`LogError::OtherClock`], of the run whose clock is wrong, whichever stands first.
-pub(crate) fn compare_clocks(runs: &[Run]) -> Result<(), LogError> {
+pub fn compare_clocks(runs: &[Run]) -> Result<(), LogError> {
     let step = |run: &Run| median(&run.time.windows(2).map(|t| t[1] - t[0]).collect::<Vec<_>>());
     let steps = runs.iter().map(|run| (step(run), run)).filter(|(step, _)| *step > 0.0);
     let mut steps: Vec<(f64, &Run)> = steps.collect();
