@@ -67,7 +67,6 @@ const NUMERICAL: &[(&str, &str, &str, &str)] = &[
         "BRIEF_S",
         "definition of a reversal, which every column of dry friction shares",
     ),
-    ("effects", "drive", "RUN_IN", "state in which an integration begins"),
     ("effects", "friction_temperature_drift", "SHARE_SPEED", "speed of a figure that is reported"),
     ("effects", "friction_temperature_drift", "TIME_STEP", "longest step of an iteration"),
     (

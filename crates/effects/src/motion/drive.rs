@@ -55,10 +55,6 @@ pub(crate) fn spring_slope(drive: &Actuator, q: f64) -> f64 {
     drive.spring_stiffness + 3.0 * drive.spring_cubic * x * x + balance
 }
 
-/// Samples of a log that lie before a motion begins: the 1.5 periods of the cut-off in which its low-pass settles, at 16
-/// samples a period.
-const RUN_IN: f64 = 24.0;
-
 /// Bristles along a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Bristles {
@@ -75,8 +71,7 @@ pub(crate) struct Bristles {
 /// ```
 ///
 /// The solution is exact for a position that is linear between samples. They bend for moments shorter than a sample, so
-/// both signals are means from half a sample before to half a sample after. Before the first sample the joint is taken
-/// to have moved at its first speed for [`RUN_IN`] samples, from no tension.
+/// both signals are means from half a sample before to half a sample after. They start without tension.
 pub(crate) fn bristles(q: &[f64], way: f64) -> Bristles {
     let mut s = 0.0;
     // The mean of s over a way, at whose end s stands.
@@ -88,7 +83,7 @@ pub(crate) fn bristles(q: &[f64], way: f64) -> Bristles {
         (mean, s)
     };
     let moved = |t: usize| q.get(t).zip(q.get(t + 1)).map(|(from, to)| to - from);
-    let (_, mut before) = pull(RUN_IN * moved(0).unwrap_or(0.0));
+    let mut before = 0.0;
     let sample = |t: usize| {
         let halves = [t.checked_sub(1).and_then(moved), moved(t)].into_iter().flatten();
         let (mut sum, mut after, mut count) = (0.0, before, 0.0);
@@ -111,9 +106,9 @@ mod tests {
     use super::*;
 
     /// `[held, bending]` of samples between which the joint goes over lines, by 10,000 explicit steps a sample.
-    fn by_small_steps(q: &[f64], way: f64, start: f64) -> Vec<[f64; 2]> {
+    fn by_small_steps(q: &[f64], way: f64) -> Vec<[f64; 2]> {
         const STEPS: usize = 10_000;
-        let mut s = start;
+        let mut s = 0.0;
         let mut along = Vec::new();
         for pair in q.windows(2) {
             let dq = (pair[1] - pair[0]) / STEPS as f64;
@@ -137,24 +132,24 @@ mod tests {
         let way = 0.01;
         let q: Vec<f64> = (0..60).map(|t| 0.2 * (0.21 * f64::from(t)).cos()).collect();
         let Bristles { held, bending } = bristles(&q, way);
-        let first = (q[1] - q[0]).signum();
-        let start = first * -(-RUN_IN * (q[1] - q[0]).abs() / way).exp_m1();
-        for (t, [share, bent]) in by_small_steps(&q, way, start).into_iter().enumerate() {
+        for (t, [share, bent]) in by_small_steps(&q, way).into_iter().enumerate() {
             let found = [held[t + 1], bending[t + 1]];
             assert!((found[0] - share).abs() < 1e-3, "{t}: {found:?}, not {share}");
             assert!((found[1] - bent).abs() < 1e-3 * way, "{t}: {found:?}, not {bent}");
         }
-        // Down, up, down and up: each turn bends them over twice their way.
+        // Down from no tension, and three turns, each of which bends them over twice their way.
         let turns: f64 = bending.iter().map(|bent| bent.abs()).sum();
-        assert!((turns / way - 6.0).abs() < 0.2, "{}", turns / way);
+        assert!((turns / way - 7.0).abs() < 0.2, "{}", turns / way);
     }
 
     #[test]
-    fn bristles_of_a_joint_that_moves_are_bent_before_the_first_sample() {
-        let moving: Vec<f64> = (0..4).map(|t| -0.01 * f64::from(t)).collect();
-        let Bristles { held, bending } = bristles(&moving, 0.01);
-        assert!(held.iter().all(|s| (s + 1.0).abs() < 1e-9), "{held:?}");
-        assert!(bending.iter().all(|bent| bent.abs() < 1e-9), "{bending:?}");
+    fn bristles_start_without_tension() {
+        let moving: Vec<f64> = (0..9).map(|t| -0.01 * f64::from(t)).collect();
+        let Bristles { held, .. } = bristles(&moving, 0.01);
+        // The mean of exp(-x) - 1 over half a way, and the end.
+        let first = 2.0 * (1.0 - (-0.5_f64).exp()) - 1.0;
+        assert!((held[0] - first).abs() < 1e-9, "{held:?}");
+        assert!((held[8] + 1.0).abs() < 1e-3, "{held:?}");
         assert_eq!(bristles(&[0.3; 3], 0.01).held, [0.0; 3]);
         assert_eq!(bristles(&[0.3], 0.01), Bristles { held: vec![0.0], bending: vec![0.0] });
         assert_eq!(bristles(&[], 0.01), Bristles { held: Vec::new(), bending: Vec::new() });
