@@ -63,7 +63,9 @@ fn good(folder: &Path, arguments: &[&str]) -> Answer {
 /// The causes that a diagnosis of some logs names, each with those it cannot be told from.
 fn diagnosed(folder: &Path, logs: &[&str], out: &str) -> Vec<(String, Vec<String>)> {
     let base = ["diagnose", "--robot", "arm.toml", "--out", out, "--no-recording", "--quiet"];
-    good(folder, &[&base[..], &["--log"], logs].concat());
+    // 1 where the noise is above a sixth of the efforts of a motion: then a rest cannot be told from a cause.
+    let answer = run(folder, &[&base[..], &["--log"], logs].concat());
+    assert!(matches!(answer.code, 0 | 1), "{}{}", answer.out, answer.err);
     let text = fs::read_to_string(folder.join(out).join("diagnosis.json")).unwrap();
     let value: Value = serde_json::from_str(&text).unwrap();
     let name = |at: &Value| at["effect"].as_str().unwrap().to_owned();
