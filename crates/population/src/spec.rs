@@ -12,7 +12,7 @@ use crate::robot_shares::RobotShares;
 
 /// Version of the draws, the simulator and the oracle, from which logs and sheets follow beside a
 /// [`PopulationSpec`].
-pub const FORMAT: u32 = 4;
+pub const FORMAT: u32 = 5;
 
 /// Most trials of a population.
 const MOST_TRIALS: usize = 1_000_000;

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use simulator::{ForwardReplay, SimulatorError, Windows, replay_torque};
 
-use crate::replay::replayed::{STEP_S, first};
+use crate::replay::replayed::first;
 
 /// Drift of two simulations from the measurement, after several lengths of time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -53,8 +53,7 @@ pub struct Drift {
 /// ```
 ///
 /// Of the windows of 50 ms one in six is simulated, of those of 200 ms one in three, of those of 1 s each. A record
-/// shorter than a length of time has no windows of it. The simulation takes steps of 1 ms, or shorter ones
-/// down to 0.1 ms where the spring of a drive needs them.
+/// shorter than a length of time has no windows of it.
 pub fn forward_gap(
     robots: [&Robot; 2],
     records: &[PreparedRun],
@@ -93,15 +92,12 @@ pub fn forward_gap_of_logs(
 /// Total time of all logs of a diagnosis that is simulated for each length of time (s).
 const TOTAL_S: f64 = 30.0;
 
-/// Shortest step of the simulation (s): that of `plumbline replay`.
-const SHORTEST_STEP_S: f64 = 1e-4;
-
 /// Lengths of time that are simulated from a measured state. Of the shorter ones a part is enough: of half a minute
 /// 100, 50 and 30 windows, whose RMS has an error of 7, 10 and 13 %.
 const WINDOWS: [Windows; 3] = [
-    Windows { window_s: 0.05, longest_step_s: STEP_S, one_in: 6 },
-    Windows { window_s: 0.2, longest_step_s: STEP_S, one_in: 3 },
-    Windows { window_s: 1.0, longest_step_s: STEP_S, one_in: 1 },
+    Windows { window_s: 0.05, one_in: 6 },
+    Windows { window_s: 0.2, one_in: 3 },
+    Windows { window_s: 1.0, one_in: 1 },
 ];
 
 /// Number of steps at which the drift within a window is taken.
@@ -128,7 +124,7 @@ impl Sum {
     ) -> Self {
         let mut sum = Self { joints: vec![0.0; robot.joint_count()], ..Self::default() };
         for record in records {
-            match replay(robot, record, windows) {
+            match replay_torque(robot, record, windows) {
                 Ok(replay) => sum.add(robot, record, &replay),
                 Err(SimulatorError::TooShort { .. }) => {}
                 Err(error) => sum.trouble = Some(error.to_string()),
@@ -162,23 +158,6 @@ impl Sum {
             runaways: self.runaways,
             trouble: self.trouble,
         }
-    }
-}
-
-/// The simulation of a record, in steps that are short enough for the springs of the drives.
-fn replay(
-    robot: &Robot,
-    record: &PreparedRun,
-    windows: Windows,
-) -> Result<ForwardReplay, SimulatorError> {
-    let roll = |longest_step_s| replay_torque(robot, record, Windows { longest_step_s, ..windows });
-    match roll(windows.longest_step_s) {
-        Err(SimulatorError::SpringTooStiff { longest_step_ms, .. })
-            if 1e-3 * longest_step_ms > SHORTEST_STEP_S =>
-        {
-            roll((0.9e-3 * longest_step_ms).max(SHORTEST_STEP_S))
-        }
-        replay => replay,
     }
 }
 
@@ -287,9 +266,6 @@ mod tests {
             (drive.elasticity, drive.rotor_inertia) = (Some(stiffness), 1.0);
             robot
         };
-        let long_steps = WINDOWS[0];
-        let refused = replay_torque(&on_spring(5e5), &short, long_steps);
-        assert!(matches!(refused, Err(SimulatorError::SpringTooStiff { .. })), "{refused:?}");
         let robots = [&on_spring(5e5), &on_spring(5e9)];
         let gap = forward_gap(robots, &[short], &Silent);
         assert_eq!(gap.windows[2].nominal, Drift::default(), "0.4 s hold no second");

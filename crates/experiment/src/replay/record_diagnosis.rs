@@ -9,7 +9,7 @@ use recording::{
 use robot::Loaded;
 
 use crate::error::ExperimentError;
-use crate::replay::replayed::{Replayed, STEP_S, Simulated};
+use crate::replay::replayed::{Replayed, Simulated};
 
 /// Highest rate of the recording (Hz).
 const RATE_HZ: f64 = 100.0;
@@ -115,13 +115,11 @@ fn legend(outcome: &DiagnosisRun, replayed: &Replayed) -> String {
     format!(
         "---\n**White** was measured. **Orange** is the nominal model, **blue** the extended one, \
          both moved by the measured torque. They start anew from the measured state every \
-         {} s, so a step back is no motion. The first {:.0} s of every run are simulated, in \
-         steps of {} ms.\n\n\
+         {} s, so a step back is no motion. The first {:.0} s of every run are simulated.\n\n\
          Torques and residuals are low-passed at {} Hz, the diagnosis has {:.1} samples a second \
          of them. The extended model's are held out ({}).\n",
         replayed.window_s,
         replayed.simulated_s,
-        1e3 * STEP_S,
         data.cutoff_hz,
         data.regression_rate_hz,
         outcome.diagnosis.gain.inverse.held_out,

@@ -10,9 +10,6 @@ const WINDOWS_S: [f64; 4] = [1.0, 0.5, 0.2, 0.1];
 /// is taken: once a simulation spins, its drift shows no error.
 const LARGEST_DRIFT: f64 = 0.5;
 
-/// Longest step of the simulation (s): ten times that of `plumbline replay`.
-pub(crate) const STEP_S: f64 = 1e-3;
-
 /// Total time of all runs that is simulated (s).
 const TOTAL_S: f64 = 120.0;
 
@@ -48,9 +45,8 @@ impl Replayed {
         let roll = |robot: &Robot, window_s: f64, model: &str| -> Vec<_> {
             let stage = format!("simulating {window_s} s of the {model} model");
             progress.stage(&stage, parts.len());
-            let windows = Windows { window_s, longest_step_s: STEP_S, one_in: 1 };
             let one = |part| {
-                let replay = replay_torque(robot, part, windows);
+                let replay = replay_torque(robot, part, Windows::of(window_s));
                 progress.step();
                 replay
             };

@@ -7,7 +7,7 @@ use rand_chacha::rand_core::SeedableRng;
 use robot::{Loaded, Robot};
 use simulator::effects::EffectSpec;
 use simulator::scenario::{EngineSpec, RunSpec, Scenario, ScenarioSpec};
-use simulator::{EffortSource, SimulatorError, simulate_noise_free, simulate_only};
+use simulator::{EffortSource, SimulatorError, StepOrder, simulate_noise_free, simulate_only};
 
 use crate::bench::{BenchWishes, LabBench, draw_bench};
 use crate::corner::{Corner, Origin};
@@ -220,7 +220,7 @@ impl Draft {
         let spec = ScenarioSpec {
             robot: self.truth_file.clone(),
             seed: self.seed >> 1,
-            engine: EngineSpec { step_ms, joint_stops: false, ..EngineSpec::default() },
+            engine: EngineSpec { step_ms, joint_stops: false, order: StepOrder::Second },
             control: self.bench.control.clone(),
             sensors: self.log.sensors(&self.bench.sensors),
             effect: [self.friction(), hidden.causes.clone()].concat(),

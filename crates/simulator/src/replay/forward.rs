@@ -6,8 +6,8 @@ use robot::{Machine, MachineFault, Robot};
 
 use crate::error::SimulatorError;
 use crate::replay::record::{
-    EncoderState, STEP_S, check_rate, encoder_state, held_torque, simulator_of_record,
-    start_at_sample, too_short, with_efforts_in_time, with_friction_of_sample,
+    EncoderState, check_rate, encoder_state, held_torque, simulator_of_record, start_at_sample,
+    too_short, with_efforts_in_time, with_friction_of_sample,
 };
 
 /// Windows without overlap in which a record is simulated.
@@ -15,16 +15,14 @@ use crate::replay::record::{
 pub struct Windows {
     /// Length of a window (s), rounded to whole samples.
     pub window_s: f64,
-    /// Longest step of the engine (s). Each sample of the record takes a whole number of steps.
-    pub longest_step_s: f64,
     /// One of so many windows is simulated, the first of every group; 1 for all of them.
     pub one_in: usize,
 }
 
 impl Windows {
-    /// Windows of this length (s), with steps of at most 0.1 ms.
+    /// All windows of this length (s).
     pub fn of(window_s: f64) -> Self {
-        Self { window_s, longest_step_s: STEP_S, one_in: 1 }
+        Self { window_s, one_in: 1 }
     }
 }
 
@@ -53,7 +51,8 @@ pub struct ForwardReplay {
 ///
 /// A commanded torque is held from its sample to the next. A measured torque is the mean of both
 /// samples. Efforts that are logged late are shifted back by the robot's skew. Windows run in
-/// parallel. Positions are compared as the robot's encoders would report them.
+/// parallel. Positions are compared as the robot's encoders would report them. Steps are of the second
+/// order and at most 0.25 ms long, or shorter ones down to 0.1 ms where the spring of a drive needs them.
 ///
 /// Each transmission starts in static equilibrium under the load that follows from the drive's
 /// description and the first torque. One encoder cannot show whether it was really oscillating.
@@ -67,7 +66,7 @@ pub fn replay_torque(
     record: &PreparedRun,
     windows: Windows,
 ) -> Result<ForwardReplay, SimulatorError> {
-    let Windows { window_s, longest_step_s, one_in } = windows;
+    let Windows { window_s, one_in } = windows;
     check_rate(record)?;
     let record = &*with_efforts_in_time(robot, record);
     let samples = (window_s * record.rate_hz).round().max(1.0) as usize;
@@ -76,10 +75,8 @@ pub fn replay_torque(
         return Err(too_short(record, window_s));
     }
     let starts: Vec<usize> = (0..count).step_by(one_in.max(1)).map(|w| w * samples).collect();
-    let windows: Result<Vec<Window>, SimulatorError> = starts
-        .par_iter()
-        .map(|&start| roll_window(robot, record, start, samples, longest_step_s))
-        .collect();
+    let windows: Result<Vec<Window>, SimulatorError> =
+        starts.par_iter().map(|&start| roll_window(robot, record, start, samples)).collect();
     let windows = windows?;
     let (mut squares, mut kept) = (vec![0.0; robot.joint_count()], 0_usize);
     for (window, start) in windows.iter().zip(&starts) {
@@ -111,10 +108,9 @@ fn roll_window(
     record: &PreparedRun,
     start: usize,
     samples: usize,
-    longest_step_s: f64,
 ) -> Result<Window, SimulatorError> {
     let robot = &*with_friction_of_sample(robot, record, start);
-    let mut simulator = simulator_of_record(robot, record.rate_hz, longest_step_s)?;
+    let mut simulator = simulator_of_record(robot, record.rate_hz)?;
     start_at_sample(&mut simulator, robot, record, start);
     let mut window = Window { states: Vec::with_capacity(samples), fault: None };
     for sample in start..start + samples {

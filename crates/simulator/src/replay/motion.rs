@@ -3,7 +3,7 @@ use robot::{Machine, PdGain, Reading, Robot};
 
 use crate::error::SimulatorError;
 use crate::replay::record::{
-    EncoderState, STEP_S, check_rate, encoder_state, held_torque, interpolate, simulator_of_record,
+    EncoderState, check_rate, encoder_state, held_torque, interpolate, simulator_of_record,
     start_at_sample, too_short, with_efforts_in_time, with_friction_of_sample,
 };
 
@@ -48,7 +48,7 @@ pub fn replay_motion(
     let robot = &*with_friction_of_sample(robot, record, 0);
     // A controller at the rate of a slow log would not be stable.
     let turns = (CONTROL_HZ / record.rate_hz).ceil().max(1.0) as usize;
-    let mut simulator = simulator_of_record(robot, record.rate_hz * turns as f64, STEP_S)?;
+    let mut simulator = simulator_of_record(robot, record.rate_hz * turns as f64)?;
     start_at_sample(&mut simulator, robot, record, 0);
     let mut rows = Vec::with_capacity(record.time.len());
     let mut reading = Reading::zero(robot.joint_count());

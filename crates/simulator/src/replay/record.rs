@@ -213,8 +213,15 @@ pub(crate) fn interpolate(
     [q, qd]
 }
 
-/// Longest step of the engine where no other is given (s).
-pub(crate) const STEP_S: f64 = 1e-4;
+/// Longest step of the second order (s): the tip of an arm is off by some 1e-7 m after a second
+/// (`docs/lab/2026-11-30-simulator-steps.md`).
+const LONGEST_STEP_S: f64 = 2.5e-4;
+
+/// Shortest step that the spring of a drive is given (s).
+const SHORTEST_STEP_S: f64 = 1e-4;
+
+/// Part of the longest step that a spring allows (see [`SimulatorError::SpringTooStiff`]) which it is given.
+const OF_ALLOWED: f64 = 0.9;
 
 /// Slowest record that is simulated (Hz). Slower ones do not determine the motion between their rows.
 pub(crate) const SLOWEST_HZ: f64 = 1.0;
@@ -232,19 +239,12 @@ pub(crate) fn too_short(record: &PreparedRun, window_s: f64) -> SimulatorError {
     SimulatorError::TooShort { run: record.name.clone(), found_s, window_s }
 }
 
-/// A simulator that holds commands for one sample of a record.
+/// A simulator that holds commands for one sample of a record at this rate, in steps of the second order of at most
+/// 0.25 ms, or shorter ones down to 0.1 ms where the spring of a drive needs them.
 pub(crate) fn simulator_of_record(
     robot: &Robot,
     rate_hz: f64,
-    longest_step_s: f64,
 ) -> Result<Simulator, SimulatorError> {
-    let steps = (1.0 / (rate_hz * longest_step_s)).ceil().max(1.0);
-    let stepping = Stepping {
-        step_s: 1.0 / (rate_hz * steps),
-        steps_per_period: steps as usize,
-        stops: false,
-        order: StepOrder::First,
-    };
     let mut robot = robot.clone();
     for i in 0..robot.joint_count() {
         if let Some(link) = robot.link_mut(i) {
@@ -252,7 +252,31 @@ pub(crate) fn simulator_of_record(
             [a.delay_s, a.lag_s] = late_s(a);
         }
     }
-    Simulator::new(&robot, Vec::new(), Sensors::perfect(robot.joint_count()), stepping)
+    match in_steps_of(&robot, rate_hz, LONGEST_STEP_S) {
+        Err(SimulatorError::SpringTooStiff { longest_step_ms, .. })
+            if 1e-3 * longest_step_ms > SHORTEST_STEP_S =>
+        {
+            let step_s = (1e-3 * OF_ALLOWED * longest_step_ms).max(SHORTEST_STEP_S);
+            in_steps_of(&robot, rate_hz, step_s)
+        }
+        built => built,
+    }
+}
+
+/// The simulator in the longest steps up to a length (s) of which a sample takes a whole number.
+fn in_steps_of(
+    robot: &Robot,
+    rate_hz: f64,
+    longest_step_s: f64,
+) -> Result<Simulator, SimulatorError> {
+    let steps = (1.0 / (rate_hz * longest_step_s) - 1e-9).ceil().max(1.0);
+    let stepping = Stepping {
+        step_s: 1.0 / (rate_hz * steps),
+        steps_per_period: steps as usize,
+        stops: false,
+        order: StepOrder::Second,
+    };
+    Simulator::new(robot, Vec::new(), Sensors::perfect(robot.joint_count()), stepping)
 }
 
 #[cfg(test)]
