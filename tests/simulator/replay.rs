@@ -202,3 +202,18 @@ fn a_drift_that_no_window_shows_is_not_zero() {
     let replay = replay_torque(&robot, &record, Windows::of(0.2)).unwrap();
     assert_eq!((replay.runaways.len(), replay.starts.len(), replay.drift_rms), (12, 12, None));
 }
+
+/// Descriptions of published arms round the inertia of a last link to zero, which leaves the mass matrix without an inverse.
+#[test]
+fn a_joint_without_inertia_is_named_and_the_others_are_not() {
+    let (mut robot, record) = (wam_with(TorqueSource::Commanded), record("commanded", ""));
+    let palm = robot.link_mut(6).unwrap();
+    // A point on the axis.
+    (palm.inertia.com_in_link.x, palm.inertia.com_in_link.y) = (0.0, 0.0);
+    palm.inertia.about_com.fill(0.0);
+    palm.actuator.rotor_inertia = 0.0;
+    let replay = replay_torque(&robot, &record, Windows::of(0.2)).unwrap();
+    let blamed: Vec<&str> = replay.runaways.iter().map(|fault| fault.joint.as_str()).collect();
+    assert_eq!(blamed, ["j7_palm_yaw"; 12]);
+    assert!(replay.runaways[0].found.contains("have an inertia about its axis"), "{blamed:?}");
+}

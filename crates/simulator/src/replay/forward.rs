@@ -60,7 +60,8 @@ pub struct ForwardReplay {
 /// # Errors
 ///
 /// [`SimulatorError`] when the robot cannot be simulated, [`SimulatorError::TooSlow`] below one row a
-/// second, or [`SimulatorError::TooShort`] when no window fits into the record.
+/// second, or [`SimulatorError::TooShort`] when no window fits into the record. A joint without inertia runs away in
+/// every window.
 pub fn replay_torque(
     robot: &Robot,
     record: &PreparedRun,
@@ -110,7 +111,13 @@ fn roll_window(
     samples: usize,
 ) -> Result<Window, SimulatorError> {
     let robot = &*with_friction_of_sample(robot, record, start);
-    let mut simulator = simulator_of_record(robot, record.rate_hz)?;
+    let mut simulator = match simulator_of_record(robot, record.rate_hz) {
+        // Its acceleration has no bound.
+        Err(SimulatorError::NoInertia { joint }) => {
+            return Ok(Window { states: Vec::new(), fault: Some(without_inertia(joint)) });
+        }
+        built => built?,
+    };
     start_at_sample(&mut simulator, robot, record, start);
     let mut window = Window { states: Vec::with_capacity(samples), fault: None };
     for sample in start..start + samples {
@@ -122,6 +129,15 @@ fn roll_window(
         window.states.push(encoder_state(&simulator, robot));
     }
     Ok(window)
+}
+
+fn without_inertia(joint: String) -> MachineFault {
+    MachineFault {
+        time_s: 0.0,
+        joint,
+        found: "neither its links nor its rotor have an inertia about its axis, a positive one was expected".to_owned(),
+        advice: "give it rotor_inertia_kg_m2 in robot.toml".to_owned(),
+    }
 }
 
 fn motion_of(robot: &Robot, record: &PreparedRun, starts: &[usize], windows: &[Window]) -> Run {

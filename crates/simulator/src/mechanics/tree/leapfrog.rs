@@ -8,6 +8,9 @@ use crate::mechanics::tree::kick::{Kick, Kicker};
 /// Product of step, damping and inverse inertia below which the weight of damping is taken from its series.
 const SMALL_DAMPING: f64 = 1e-3;
 
+/// Share of the largest inertia of a joint below which that of another is rounding.
+const LEAST_INERTIA: f64 = 1e-14;
+
 /// A tree of bodies, stepped as a leapfrog whose error falls with the square of the step:
 ///
 /// ```text
@@ -138,6 +141,14 @@ impl Engine for TreeEngine {
     fn inverse_inertia(&mut self) -> Vec<f64> {
         let count = self.q.len();
         self.bodies.place(&self.q, &vec![0.0; count], &[]);
+        let own: Vec<f64> = (0..count).map(|i| self.bodies.mass()[i * count + i]).collect();
+        let least = LEAST_INERTIA * own.iter().copied().fold(0.0, f64::max);
+        if own.iter().any(|&inertia| inertia <= least) {
+            // The matrix has no inverse: the joints that are to blame have no inertia of their own.
+            let inverse =
+                |&inertia: &f64| if inertia > least { 1.0 / inertia } else { f64::INFINITY };
+            return own.iter().map(inverse).collect();
+        }
         let (mut system, holds) = (HeldSystem::new(count), vec![Hold::NONE; count]);
         let column = |i: usize| {
             let mut one = vec![0.0; count];
