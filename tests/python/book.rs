@@ -1,4 +1,5 @@
-//! The book: every snippet of Python in it prints what the book shows, and every notebook runs from top to bottom.
+//! The book: every snippet of Python in it prints what the book shows, and every notebook runs from top to bottom and prints
+//! what is stored in it.
 
 use std::fs;
 use std::process::Command;
@@ -93,7 +94,7 @@ fn the_type_stubs_are_made_of_the_sources() {
 }
 
 #[test]
-fn notebooks_run_from_top_to_bottom() {
+fn notebooks_run_from_top_to_bottom_and_print_what_is_stored() {
     let imports = "import nbclient, nbformat, ipykernel, pandas, matplotlib, pyarrow, numpy";
     let Some(module) = module(imports, "notebooks are") else { return };
     for (name, shown) in SHOWN {
@@ -102,6 +103,7 @@ fn notebooks_run_from_top_to_bottom() {
         let ended = python(module.path())
             .arg(workspace_root().join("tests/python/run_notebook.py"))
             .arg(&path)
+            .arg("--check")
             .env("TMPDIR", work.path())
             .output()
             .unwrap();
