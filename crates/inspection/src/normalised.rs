@@ -10,7 +10,8 @@ const LARGEST: f64 = 100.0_f64.to_radians();
 /// Positions of a dataset of `LeRobot`, a folder, that were read as degrees and may be normalised, -100 to 100 over the range
 /// of a calibration: none is beyond 100, and some joint is beyond its limits.
 ///
-/// The joint that is so in most samples is told. The zero of an encoder that is off looks alike, so that nothing is spoilt.
+/// The joint that is so in most samples is told. The zero of an encoder that is off looks alike; nothing can be told from such
+/// positions either.
 pub(crate) fn normalised(
     robot: &Robot,
     runs: &[Run],
@@ -35,7 +36,7 @@ pub(crate) fn normalised(
     let (joint, share) = shares.max_by(|a, b| a.1.total_cmp(&b.1))?;
     (share > t.rows_beyond_range).then(|| {
         let kind = ObservationKind::NormalisedPositions { share };
-        Observation::of_runs(kind, vec![joint], (0..runs.len()).collect(), Spoils::Nothing)
+        Observation::of_runs(kind, vec![joint], (0..runs.len()).collect(), Spoils::Everything)
     })
 }
 

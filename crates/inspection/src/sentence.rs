@@ -215,7 +215,7 @@ impl Names<'_> {
             .map_or_else(String::new, |(low, high)| format!(" of {low:.3} to {high:.3} rad"));
         format!(
             "Read as degrees, the position of {} is beyond its limits{limits} in {} of the rows, and no joint of the \
-             dataset is beyond 100: it may be normalised to -100 .. 100",
+             dataset is beyond 100: it may be normalised to -100 .. 100, or have another zero",
             self.joints(joints),
             percent(share)
         )
