@@ -9,7 +9,7 @@ use crate::judge::Judge;
 use crate::limits::at_limits;
 use crate::moments::moments;
 use crate::motion_samples::Thinned;
-use crate::normalised::normalised;
+use crate::normalised::normalised_positions;
 use crate::observation::{Observation, ObservationKind, Spoils};
 use crate::overlaps::overlaps;
 use crate::pieces::pieces;
@@ -39,7 +39,7 @@ pub fn inspect_with(
     moments.corrected.iter_mut().for_each(|run| remove_described_effects(robot, run));
     observations.extend(overlaps(runs, thresholds));
     observations.extend(at_limits(robot, runs, thresholds));
-    observations.extend(normalised(robot, runs, thresholds));
+    observations.extend(normalised_positions(robot, runs, thresholds));
     if let Some(wide) = wide_inertias(robot, runs.len()) {
         observations.push(wide);
         return observations;

@@ -12,7 +12,7 @@ const LARGEST: f64 = 100.0_f64.to_radians();
 ///
 /// The joint that is so in most samples is told. The zero of an encoder that is off looks alike; nothing can be told from such
 /// positions either.
-pub(crate) fn normalised(
+pub(crate) fn normalised_positions(
     robot: &Robot,
     runs: &[Run],
     t: &InspectionThresholds,

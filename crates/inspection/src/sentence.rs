@@ -122,7 +122,7 @@ impl Names<'_> {
             ),
             K::ZerosOfRuns => format!("The zero of the effort of {at} differs from run to run"),
             K::GoalVelocity => goal_velocity(&at),
-            K::NormalisedPositions { share } => self.normalised(joints, share),
+            K::NormalisedPositions { share } => self.normalised_positions(joints, share),
             K::EffortWithoutGravity => "The efforts lack the torque of gravity".to_owned(),
             K::GravityDirection { .. } | K::GravityValue { .. } => self.gravity(kind),
             K::PositionOffset { offset } => {
@@ -207,7 +207,7 @@ impl Names<'_> {
     }
 
     /// Positions that are no degrees.
-    fn normalised(&self, joints: &[usize], share: f64) -> String {
+    fn normalised_positions(&self, joints: &[usize], share: f64) -> String {
         let limits = |j: &usize| self.robot.links().get(*j)?.joint.limits.position;
         let limits = joints
             .first()
