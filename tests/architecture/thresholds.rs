@@ -102,6 +102,7 @@ const NUMERICAL: &[(&str, &str, &str, &str)] = &[
     ("inspection", "sentence", "MOST_SHARE", "digits of printed numbers"),
     ("inspection", "fit", "COLUMNS", "size of an array"),
     ("inspection", "judge", "NO_EFFORT", "a floor that nothing exceeds"),
+    ("inspection", "normalised", "LARGEST", "what 100 is as degrees"),
     ("inspection", "pooled", "ROUNDS", "iterations of a weighting"),
     ("inspection", "motion_samples", "ROWS", "resolution of the samples"),
     ("inspection", "motion_samples", "SETTLING", "time over which a filter settles"),

@@ -1,4 +1,5 @@
-//! The book: every snippet of Python in it prints what the book shows, and every notebook runs from top to bottom.
+//! The book: every snippet of Python in it prints what the book shows, and every notebook runs from top to bottom and prints
+//! what is stored in it.
 
 use std::fs;
 use std::process::Command;
@@ -62,25 +63,38 @@ fn snippets_print_what_the_book_shows() {
     }
 }
 
-#[test]
-fn the_reference_is_made_of_the_sources() {
+/// What a script of the module's folder prints of its sources; none, said so, without a Python that runs it.
+fn made_by(script: &str) -> Option<String> {
     let can =
         checks::book::can("python3", &["-c", "import sys; assert sys.version_info >= (3, 9)"]);
     if !can {
-        println!("no python3 of 3.9 or later here: the reference of the module is left unmade");
-        return;
+        println!("no python3 of 3.9 or later here: {script} is left unrun");
+        return None;
     }
-    let script = workspace_root().join("crates/python/reference.py");
+    let script = workspace_root().join("crates/python").join(script);
     let ended = Command::new("python3").arg(script).output().unwrap();
     let said = String::from_utf8_lossy(&ended.stderr);
     assert!(ended.status.success(), "{said}");
+    Some(String::from_utf8(ended.stdout).unwrap())
+}
+
+#[test]
+fn the_reference_is_made_of_the_sources() {
+    let Some(made) = made_by("reference.py") else { return };
     let page = fs::read_to_string(checks::book::folder().join("python-reference.md")).unwrap();
-    let made = String::from_utf8(ended.stdout).unwrap();
     assert!(made == page, "python3 crates/python/reference.py > docs/src/python-reference.md");
 }
 
 #[test]
-fn notebooks_run_from_top_to_bottom() {
+fn the_type_stubs_are_made_of_the_sources() {
+    let Some(made) = made_by("stubs.py") else { return };
+    let stubs = "crates/python/python/plumbline/_plumbline.pyi";
+    let kept = fs::read_to_string(workspace_root().join(stubs)).unwrap();
+    assert!(made == kept, "python3 crates/python/stubs.py > {stubs}");
+}
+
+#[test]
+fn notebooks_run_from_top_to_bottom_and_print_what_is_stored() {
     let imports = "import nbclient, nbformat, ipykernel, pandas, matplotlib, pyarrow, numpy";
     let Some(module) = module(imports, "notebooks are") else { return };
     for (name, shown) in SHOWN {
@@ -89,6 +103,7 @@ fn notebooks_run_from_top_to_bottom() {
         let ended = python(module.path())
             .arg(workspace_root().join("tests/python/run_notebook.py"))
             .arg(&path)
+            .arg("--check")
             .env("TMPDIR", work.path())
             .output()
             .unwrap();

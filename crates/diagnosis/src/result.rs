@@ -95,6 +95,9 @@ pub struct JointReport {
     pub noise_floor_rms_nm: f64,
     /// Where most of the noise comes from.
     pub noise_floor_from: NoiseFloorSource,
+    /// Whether what is left is within the noise, and that so large a share of the effort that a cause may hide in it: such
+    /// a joint is open though no structure is seen in it.
+    pub is_lost_in_noise: bool,
     /// Noise and residual over frequency.
     pub spectrum: NoiseSpectrum,
     /// Integrated autocorrelation time of the remaining residual (s).

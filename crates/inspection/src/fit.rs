@@ -23,6 +23,13 @@ pub(crate) struct Fitted {
     pub coefficients: [f64; COLUMNS],
 }
 
+impl Fitted {
+    /// Viscous friction `b`.
+    pub fn b(&self) -> f64 {
+        self.coefficients[2]
+    }
+}
+
 /// Sums of products of the columns and the effort of a joint, about their means.
 #[derive(Debug, Clone)]
 pub(crate) struct ProductSums {
@@ -56,6 +63,17 @@ impl ProductSums {
 
     /// The least squares fit within the bounds of a drive: the best of all its faces.
     pub fn fit(&self, drive: Drive) -> Fitted {
+        self.fit_within(drive, [0.0; 3])
+    }
+
+    /// The same with viscous friction of either sign, where efforts are computed from goals: the gain by which a loop damps may
+    /// be another one.
+    pub fn fit_of_loop(&self, drive: Drive) -> Fitted {
+        self.fit_within(drive, [0.0, f64::NEG_INFINITY, 0.0])
+    }
+
+    /// The fit with least values of `f`, `b` and `i`.
+    fn fit_within(&self, drive: Drive, least: [f64; COLUMNS - 1]) -> Fitted {
         let mut best = Fitted { share: f64::INFINITY, coefficients: [0.0; COLUMNS] };
         let [low, high] = drive.gain;
         for others in 0..1_u32 << (COLUMNS - 1) {
@@ -66,7 +84,7 @@ impl ProductSums {
             for found in candidates.into_iter().flatten() {
                 let inside = found.coefficients[0] >= low - 1e-12
                     && found.coefficients[0] <= high + 1e-12
-                    && found.coefficients.iter().skip(1).all(|c| *c >= 0.0);
+                    && found.coefficients.iter().skip(1).zip(least).all(|(c, least)| *c >= least);
                 if inside && found.share < best.share {
                     best = found;
                 }

@@ -9,6 +9,7 @@ use crate::judge::Judge;
 use crate::limits::at_limits;
 use crate::moments::moments;
 use crate::motion_samples::Thinned;
+use crate::normalised::normalised_positions;
 use crate::observation::{Observation, ObservationKind, Spoils};
 use crate::overlaps::overlaps;
 use crate::pieces::pieces;
@@ -38,6 +39,7 @@ pub fn inspect_with(
     moments.corrected.iter_mut().for_each(|run| remove_described_effects(robot, run));
     observations.extend(overlaps(runs, thresholds));
     observations.extend(at_limits(robot, runs, thresholds));
+    observations.extend(normalised_positions(robot, runs, thresholds));
     if let Some(wide) = wide_inertias(robot, runs.len()) {
         observations.push(wide);
         return observations;
@@ -60,7 +62,9 @@ pub fn inspect_with(
     let errors = readings(&mut judge, runs.len());
     // With the description of another arm, a reading may improve a joint by chance; a true one leaves no contradiction.
     let errors = another_robot(&judge, runs.len()).map_or(errors, |other| vec![other]);
-    let gain = errors.first().and_then(|o| o.evidence).map(|e| e.gain);
+    // An effort that is computed from a goal is of the rows of the motion, and not shifted against it.
+    let first = errors.first().filter(|o| o.kind != ObservationKind::GoalVelocity);
+    let gain = first.and_then(|o| o.evidence).map(|e| e.gain);
     if let Some(gain) = gain
         && let Some(shift) = effort_shift(robot, &thinned, thresholds, gain, runs.len())
     {

@@ -65,8 +65,17 @@ impl<'a> Judge<'a> {
 
     /// The fit of every joint for samples and their nominal torque.
     pub fn fits(&self, samples: &MotionSamples, tau: &[f64], drive: Drive) -> Vec<Fitted> {
-        let fit = |j| self.sums(samples, tau, j).fit(drive);
+        let fit = |j| {
+            let sums = self.sums(samples, tau, j);
+            if samples.has_goals(j) { sums.fit_of_loop(drive) } else { sums.fit(drive) }
+        };
         (0..samples.joints).map(fit).collect()
+    }
+
+    /// The least squares fits of a joint without and with viscous friction of either sign.
+    pub fn fits_of_loop(&self, j: usize) -> [Fitted; 2] {
+        let sums = self.sums(&self.samples, &self.whole, j);
+        [sums.fit(self.drive()), sums.fit_of_loop(self.drive())]
     }
 
     /// Sums of a joint for samples and their nominal torque.

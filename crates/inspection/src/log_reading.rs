@@ -26,6 +26,9 @@ pub(crate) enum LogReading {
     Degrees(Option<usize>),
     /// Logged efforts per N m (or N) of each joint; `None` where they are in another unit and do not show it.
     Unit(Vec<Option<f64>>),
+    /// The position loop of each joint follows the velocity of its goal, and damps the difference: `kd / kp` (s), zero where
+    /// there is none.
+    GoalVelocity(Vec<f64>),
     /// The efforts lack the torque of gravity.
     WithoutGravity,
     /// Acceleration of free fall in the base frame (m/s²).
@@ -45,7 +48,14 @@ impl LogReading {
         };
         match self {
             Self::AsIs | Self::WithoutGravity | Self::Gravity(_) => {}
-            Self::EffortSign(joint) => scale(&mut read.effort, *joint, -1.0),
+            Self::EffortSign(joint) => {
+                scale(&mut read.effort, *joint, -1.0);
+                scale(&mut read.goal_rate, *joint, -1.0);
+            }
+            Self::GoalVelocity(ratios) => {
+                let rates = samples.goal_rate.iter().zip(ratios.iter().cycle());
+                read.effort.iter_mut().zip(rates).for_each(|(e, (rate, ratio))| *e += ratio * rate);
+            }
             Self::PositionSign(joint) => {
                 read.motion.iter_mut().for_each(|signal| scale(signal, *joint, -1.0));
             }
@@ -65,16 +75,22 @@ impl LogReading {
             Self::Exchanged(a, b) => {
                 read.motion.iter_mut().for_each(|signal| exchange(signal, n, *a, *b));
                 exchange(&mut read.effort, n, *a, *b);
+                exchange(&mut read.goal_rate, n, *a, *b);
             }
-            Self::EffortsExchanged(a, b) => exchange(&mut read.effort, n, *a, *b),
+            Self::EffortsExchanged(a, b) => {
+                exchange(&mut read.effort, n, *a, *b);
+                exchange(&mut read.goal_rate, n, *a, *b);
+            }
             Self::Unit(factors) => {
                 for (j, factor) in factors.iter().enumerate() {
                     scale(&mut read.effort, Some(j), 1.0 / factor.unwrap_or(1.0));
+                    scale(&mut read.goal_rate, Some(j), 1.0 / factor.unwrap_or(1.0));
                 }
             }
             Self::Time(factor) => {
                 scale(&mut read.motion[1], None, *factor);
                 scale(&mut read.motion[2], None, factor * factor);
+                scale(&mut read.goal_rate, None, *factor);
             }
         }
         read
@@ -82,7 +98,13 @@ impl LogReading {
 
     /// Whether it changes efforts alone, so that the nominal torque stays.
     pub fn is_of_efforts(&self) -> bool {
-        matches!(self, Self::EffortSign(_) | Self::EffortsExchanged(..) | Self::Unit(_))
+        matches!(
+            self,
+            Self::EffortSign(_)
+                | Self::EffortsExchanged(..)
+                | Self::Unit(_)
+                | Self::GoalVelocity(_)
+        )
     }
 
     /// The joints that it exchanges.
@@ -105,7 +127,7 @@ impl LogReading {
                 joint.is_none()
             }
             Self::Unit(factors) => factors.iter().all(|f| f.is_none_or(is_another_unit)),
-            Self::WithoutGravity | Self::Gravity(_) | Self::Time(_) => true,
+            Self::WithoutGravity | Self::Gravity(_) | Self::Time(_) | Self::GoalVelocity(_) => true,
             _ => false,
         }
     }
@@ -132,6 +154,7 @@ impl LogReading {
                 those.sort_unstable_by(f64::total_cmp);
                 (K::EffortUnit { factor: *those.get(those.len() / 2)? }, which)
             }
+            Self::GoalVelocity(_) => (K::GoalVelocity, all()),
             Self::WithoutGravity => (K::EffortWithoutGravity, all()),
             Self::Gravity(g) => {
                 let angle = g.angle(&nominal);

@@ -2,10 +2,11 @@ use std::f64::consts::PI;
 
 use dynamics::Dynamics;
 use logs::{Channels, Run};
-use robot::{Actuator, Robot};
+use robot::{Actuator, PdGain, Robot};
 
 use crate::inspect::inspect_with;
 use crate::observation::{CountedTogether, Observation, ObservationKind, Spoils};
+use crate::pieces::usual_step;
 use crate::thresholds::InspectionThresholds;
 
 /// Logs with the errors corrected that have one possible correction.
@@ -20,7 +21,7 @@ pub struct CorrectedLogs {
 }
 
 /// Corrects errors that spoil whole logs and have one possible correction: a turned sign, exchanged columns, another unit,
-/// degrees, efforts that lack the torque of gravity.
+/// degrees, efforts that lack the torque of gravity, a position loop that follows the velocity of its goal.
 ///
 /// Logs that are still spoilt after the corrections stay as they are: these errors were not the cause then.
 pub fn correct(robot: &Robot, runs: &[Run]) -> CorrectedLogs {
@@ -93,6 +94,11 @@ impl Observation {
                     shift_effort(&mut runs[zero.run].joints[zero.joint], -zero.offset);
                 }
             }
+            (K::GoalVelocity, joints) => {
+                for run in runs.iter_mut() {
+                    joints.iter().for_each(|&j| follow_velocity(robot, run, j));
+                }
+            }
             (K::CountedTogether(counted), _) => {
                 runs.iter_mut().for_each(|run| count_apart(run, counted));
             }
@@ -132,6 +138,29 @@ fn add_gravity(robot: &Robot, run: &mut Run) {
             joint.effort[t] += drive.transmission_ratio * drive.torque_gain * tau;
         }
     }
+}
+
+/// Adds what a loop does that follows the velocity of its goal, `kd d goal/dt`, to effort and its part that follows the goal.
+fn follow_velocity(robot: &Robot, run: &mut Run, joint: usize) {
+    let gains = robot.links().get(joint).and_then(|link| link.actuator.position_loop);
+    let (Some(PdGain { kp, kd }), Channels { effort, goal_effort: Some(goal), .. }) =
+        (gains, &mut run.joints[joint])
+    else {
+        return;
+    };
+    let step_s = usual_step(&run.time);
+    let time = |k: usize| match k.checked_sub(goal.lead) {
+        Some(row) => run.time[row],
+        None => run.time[0] - (goal.lead - k) as f64 * step_s,
+    };
+    let last = goal.values.len().saturating_sub(1);
+    let rate = |k: usize| {
+        let (before, after) = (k.saturating_sub(1), (k + 1).min(last));
+        (goal.values[after] - goal.values[before]) / (time(after) - time(before))
+    };
+    let added: Vec<f64> = (0..=last).map(|k| kd / kp * rate(k)).collect();
+    effort.iter_mut().zip(&added[goal.lead..]).for_each(|(effort, more)| *effort += more);
+    goal.values.iter_mut().zip(&added).for_each(|(effort, more)| *effort += more);
 }
 
 /// The power of ten that a factor is near to, other than one.
@@ -232,6 +261,8 @@ fn exchange(run: &mut Run, a: usize, b: usize) {
 
 #[cfg(test)]
 mod tests {
+    use logs::GoalEffort;
+
     use super::*;
     use crate::testing::{pendulum, swing};
 
@@ -289,6 +320,30 @@ mod tests {
         let (mended, _) = read(|run| scale(&mut run.joints[0].effort, -1.0));
         assert_eq!(mended.mended, []);
         assert!(!mended.left.is_empty());
+    }
+
+    /// A loop of 100 N m/rad and 5 N m s/rad that follows a goal close by, logged without the velocity of the goal: its
+    /// effort is what the pendulum needs less 5 N m s/rad of its speed, which no friction takes.
+    #[test]
+    fn a_loop_that_follows_the_velocity_of_its_goal_is_read_as_such() {
+        let mut robot = pendulum();
+        robot.link_mut(0).unwrap().actuator.position_loop = Some(PdGain { kp: 100.0, kd: 5.0 });
+        let true_runs = vec![swing(0.3), swing(1.1)];
+        let mut runs = true_runs.clone();
+        for joint in runs.iter_mut().map(|run| &mut run.joints[0]) {
+            let speeds = joint.velocity.as_ref().unwrap();
+            joint.effort.iter_mut().zip(speeds).for_each(|(effort, qd)| *effort -= 5.0 * qd);
+            let values = joint.position.iter().map(|q| 100.0 * q).collect();
+            joint.goal_effort = Some(GoalEffort { values, lead: 0, delay_s: 0.0 });
+        }
+        let read = correct(&robot, &runs);
+        let kinds: Vec<ObservationKind> = read.mended.iter().map(|o| o.kind).collect();
+        assert_eq!(kinds, [ObservationKind::GoalVelocity], "{:?}", read.left);
+        for (read, run) in read.runs.unwrap().iter().zip(&true_runs) {
+            let apart = read.joints[0].effort.iter().zip(&run.joints[0].effort);
+            let most = apart.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(most < 0.2, "{most}");
+        }
     }
 
     #[test]

@@ -19,6 +19,8 @@ pub(crate) struct MotionSamples {
     pub step_s: f64,
     /// Velocity column, NaN where the log has none.
     pub velocity: Vec<f64>,
+    /// Rate of the part of the effort that follows the goal, `kp d goal/dt` (N m/s or N/s); zero where efforts are logged.
+    pub goal_rate: Vec<f64>,
     /// Index of the run of each row.
     run: Vec<usize>,
     /// Share of the largest speed of a joint from which on it moves.
@@ -92,6 +94,7 @@ impl Thinned {
             motion: [read(0, 0), read(1, 0), read(2, 0)],
             effort: read(3, later),
             velocity: read(4, 0),
+            goal_rate: read(5, later),
             run: rows.iter().map(|r| self.pieces[r.piece].run).collect(),
             step_s: self.pieces.iter().map(|p| p.log_step_s).fold(0.0, f64::max),
             moving_speed: self.moving_speed,
@@ -110,6 +113,11 @@ impl MotionSamples {
     /// Number of rows.
     pub fn rows(&self) -> usize {
         self.effort.len() / self.joints.max(1)
+    }
+
+    /// Whether the effort of joint `j` is computed from goals, which moved.
+    pub fn has_goals(&self, j: usize) -> bool {
+        self.goal_rate.iter().skip(j).step_by(self.joints.max(1)).any(|rate| rate.abs() > 0.0)
     }
 
     /// The values of joint `j` in its informative rows.
@@ -150,8 +158,8 @@ impl MotionSamples {
 
 /// A piece after its low-pass, at every few of its samples.
 struct Smooth {
-    /// Per joint: position, velocity, acceleration, effort, velocity column.
-    joints: Vec<[Vec<f64>; 5]>,
+    /// Per joint: position, velocity, acceleration, effort, velocity column, rate of the effort that follows the goal.
+    joints: Vec<[Vec<f64>; 6]>,
     /// Index of the run.
     run: usize,
     /// Time between two of its rows (s).
@@ -191,12 +199,16 @@ impl Smooth {
             let (q, effort) = (apply(&signals.position), apply(&signals.effort));
             let h = near as f64 * piece.step_s;
             let velocity = signals.velocity.as_deref().map(apply);
+            let goal = signals.goal_effort.as_deref().map(apply);
             [
                 kept().map(|k| q[k]).collect(),
                 kept().map(|k| 0.5 * (q[k + near] - q[k - near]) / h).collect(),
                 kept().map(|k| (q[k + near] - 2.0 * q[k] + q[k - near]) / (h * h)).collect(),
                 kept().map(|k| effort[k]).collect(),
                 kept().map(|k| velocity.as_ref().map_or(f64::NAN, |v| mean(v, k, near))).collect(),
+                kept()
+                    .map(|k| goal.as_ref().map_or(0.0, |g| 0.5 * (g[k + near] - g[k - near]) / h))
+                    .collect(),
             ]
         };
         let step_s = stride as f64 * piece.step_s;

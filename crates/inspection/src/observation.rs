@@ -168,6 +168,8 @@ pub enum ObservationKind {
     },
     /// The effort of the joints is in another unit, as that of other joints is, and their motion does not show which.
     UnknownUnit,
+    /// The position loops of the joints follow the velocity of their goals: `kp (goal - q) + kd (d goal/dt - qd)`.
+    GoalVelocity,
     /// The effort lacks the torque that holds the arm against gravity.
     EffortWithoutGravity,
     /// The effort of the joints at no torque differs from run to run.
@@ -191,6 +193,11 @@ pub enum ObservationKind {
     },
     /// Positions are degrees.
     Degrees,
+    /// Positions that were taken for degrees may be normalised: a joint is beyond its limits, and none is beyond 100.
+    NormalisedPositions {
+        /// Share of the samples in which the joint that is farthest out is beyond its limits, 0 to 1.
+        share: f64,
+    },
     /// The position of a joint is counted from further inward than its parent link: `q_log = q + sign q_parent`.
     CountedTogether(CountedTogether),
     /// Effort and motion disagree about the unit of time.

@@ -21,6 +21,8 @@ pub(crate) struct JointSignals {
     pub position: Vec<f64>,
     pub effort: Vec<f64>,
     pub velocity: Option<Vec<f64>>,
+    /// Part of the effort that follows the goal, where efforts are computed from goals.
+    pub goal_effort: Option<Vec<f64>>,
 }
 
 impl RunPiece {
@@ -81,6 +83,7 @@ fn piece((index, run): (usize, &Run), rows: Range<usize>, usual: f64, even_step:
         position: read(&joint.position),
         effort: read(&joint.effort),
         velocity: joint.velocity.as_deref().map(read),
+        goal_effort: joint.goal_effort.as_ref().map(|goal| read(&goal.values[goal.lead..])),
     };
     RunPiece { run: index, step_s, joints: run.joints.iter().map(joint).collect() }
 }

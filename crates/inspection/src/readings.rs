@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use crate::effort_unit::{effort_unit, joint_units};
 use crate::fit::Drive;
+use crate::goal_velocity::goal_velocity;
 use crate::judge::{Judge, ReadingFit};
 use crate::log_reading::LogReading;
 use crate::observation::{CountedTogether, Observation, ReadingEvidence, Rival, Spoils};
@@ -11,7 +12,7 @@ use crate::payload::shares_with_a_tool;
 
 /// Errors that the nominal torque shows: readings that improve its fit, the best first.
 pub(crate) fn readings(judge: &mut Judge, runs: usize) -> Vec<Observation> {
-    let mut observations = Vec::new();
+    let mut observations: Vec<Observation> = goal_velocity(judge, runs).into_iter().collect();
     while observations.len() < judge.thresholds.most_readings {
         let as_is = judge.as_is();
         let Some((best, rivals)) = best(judge, &as_is) else { break };

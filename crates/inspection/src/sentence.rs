@@ -121,6 +121,8 @@ impl Names<'_> {
                  not show its own. It is read with their middle factor"
             ),
             K::ZerosOfRuns => format!("The zero of the effort of {at} differs from run to run"),
+            K::GoalVelocity => goal_velocity(&at),
+            K::NormalisedPositions { share } => self.normalised_positions(joints, share),
             K::EffortWithoutGravity => "The efforts lack the torque of gravity".to_owned(),
             K::GravityDirection { .. } | K::GravityValue { .. } => self.gravity(kind),
             K::PositionOffset { offset } => {
@@ -201,6 +203,21 @@ impl Names<'_> {
         format!(
             "The position of joint {own} seems to be counted from where {with} begins (its column holds {own} {sign} \
              {with}){drive}"
+        )
+    }
+
+    /// Positions that are no degrees.
+    fn normalised_positions(&self, joints: &[usize], share: f64) -> String {
+        let limits = |j: &usize| self.robot.links().get(*j)?.joint.limits.position;
+        let limits = joints
+            .first()
+            .and_then(limits)
+            .map_or_else(String::new, |(low, high)| format!(" of {low:.3} to {high:.3} rad"));
+        format!(
+            "Read as degrees, the position of {} is beyond its limits{limits} in {} of the rows, and no joint of the \
+             dataset is beyond 100: it may be normalised to -100 .. 100, or have another zero",
+            self.joints(joints),
+            percent(share)
         )
     }
 
@@ -307,6 +324,13 @@ impl Names<'_> {
     }
 }
 
+fn goal_velocity(at: &str) -> String {
+    format!(
+        "The position loop of {at} seems to follow the velocity of the goal as well: its effort is \
+         kp (goal - q) + kd (d goal/dt - qd)"
+    )
+}
+
 fn remedy(kind: ObservationKind) -> &'static str {
     use ObservationKind as K;
     match kind {
@@ -318,6 +342,12 @@ fn remedy(kind: ObservationKind) -> &'static str {
         K::JointsExchanged | K::EffortsExchanged => "Put the columns under the right names.",
         K::EffortUnit { .. } | K::UnknownUnit => "State the unit in the column map.",
         K::ZerosOfRuns => "Set the torque sensors to zero before every run.",
+        K::GoalVelocity => {
+            "State the gains of a loop that damps the velocity alone, or log efforts."
+        }
+        K::NormalisedPositions { .. } => {
+            "In the column map, of position and desired_position: scale = (b - a) / 200 and offset = (a + b) / 2 with the range of the calibration from a to b (rad), a list with one number a joint each."
+        }
         K::EffortWithoutGravity => {
             "Log the whole torque, or add the controller's gravity torque to the effort: without it, nothing at rest tells a mass."
         }

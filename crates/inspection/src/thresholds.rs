@@ -150,6 +150,10 @@ pub struct InspectionThresholds {
     pub zeros_floor: f64,
     /// Fewest rows in which a joint moves in a run whose zero is told.
     pub zero_rows: usize,
+    /// Share of its range by which a joint must be beyond a limit to count as beyond it (1): ends of a range are kept about.
+    pub beyond_range: f64,
+    /// Share of the samples beyond a limit from which on positions in degrees may be none (1).
+    pub rows_beyond_range: f64,
     /// Errors at some moments of a run.
     pub moments: MomentThresholds,
 }
@@ -227,6 +231,8 @@ impl Default for InspectionThresholds {
             zeros_of_runs: 16.0,
             zeros_floor: 1e-4,
             zero_rows: 10,
+            beyond_range: 0.1,
+            rows_beyond_range: 0.1,
         }
     }
 }

@@ -203,6 +203,7 @@ fn joint(name: &str, verdict: Verdict) -> JointReport {
         remaining_rms_nm: 0.4,
         noise_floor_rms_nm: 0.35,
         noise_floor_from: NoiseFloorSource::Effort,
+        is_lost_in_noise: false,
         spectrum: NoiseSpectrum::default(),
         autocorrelation_time_s: 0.4,
         effective_samples: 120.0,

@@ -113,6 +113,7 @@ impl Inputs<'_> {
             remaining_rms_nm: situation.remaining_rms,
             noise_floor_rms_nm: situation.noise.0,
             noise_floor_from: situation.noise.1,
+            is_lost_in_noise: situation.is_drowned(),
             spectrum,
             autocorrelation_time_s: time / self.design.rate_hz,
             effective_samples: rest.iter().map(Vec::len).sum::<usize>() as f64 / time,

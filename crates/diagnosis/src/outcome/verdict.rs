@@ -86,7 +86,7 @@ impl Situation<'_> {
     /// For a joint with a cause of its own this holds for any noise. For other joints the residual must also exceed
     /// the effort's own noise: it then passes as noise only because commands and changes of direction are allowed
     /// more.
-    fn is_drowned(&self) -> bool {
+    pub fn is_drowned(&self) -> bool {
         self.is_noise()
             && self.remaining_rms > self.thresholds.drowned * self.torque_rms
             && (self.own > 0

@@ -37,7 +37,8 @@ pub fn verdict_sentence(diagnosis: &Diagnosis) -> String {
         }
         Verdict::PartlyExplained => {
             format!(
-                "Partly explained: {effects} found in the model of {robot}, structure is left at {left}"
+                "Partly explained: {effects} found in the model of {robot}, {}",
+                what_is_open(joints, is_open)
             )
         }
         Verdict::Unexplained => format!(
@@ -53,6 +54,18 @@ pub fn verdict_sentence(diagnosis: &Diagnosis) -> String {
             format!("Data inadequate: this log cannot show what the model of {robot} gets wrong")
         }
     }
+}
+
+/// Where structure is left, and where the noise is as large as a cause.
+fn what_is_open(joints: &[JointReport], is_open: impl Fn(Verdict) -> bool) -> String {
+    let at = |is_lost: bool| -> Option<String> {
+        let counts =
+            |joint: &&JointReport| is_open(joint.verdict) && joint.is_lost_in_noise == is_lost;
+        joints.iter().any(|joint| counts(&joint)).then(|| names_of(joints, counts))
+    };
+    let structure = at(false).map(|left| format!("structure is left at {left}"));
+    let noise = at(true).map(|lost| format!("noise as large as a cause is left at {lost}"));
+    structure.into_iter().chain(noise).collect::<Vec<_>>().join(", ")
 }
 
 /// How many effects have a name, and how many of them no size: `2 named effects (1 of unknown size)`.
@@ -71,8 +84,11 @@ fn verb(count: usize) -> &'static str {
 }
 
 fn at_joints(joints: &[JointReport], wanted: impl Fn(Verdict) -> bool) -> String {
-    let names: Vec<String> =
-        joints.iter().filter(|j| wanted(j.verdict)).map(|j| j.name.clone()).collect();
+    names_of(joints, |joint| wanted(joint.verdict))
+}
+
+fn names_of(joints: &[JointReport], wanted: impl Fn(&&JointReport) -> bool) -> String {
+    let names: Vec<String> = joints.iter().filter(wanted).map(|j| j.name.clone()).collect();
     match names.len() {
         0 => "no joint".to_owned(),
         n if n == joints.len() && n > 1 => "every joint".to_owned(),
@@ -217,6 +233,20 @@ mod tests {
             verdict_sentence(&sample.diagnosis),
             "Partly explained: 2 named effects found in the model of arm, structure is left at joint elbow"
         );
+    }
+
+    #[test]
+    fn the_sentence_says_where_noise_and_no_structure_keeps_a_joint_open() {
+        let mut diagnosis = sample::arm().diagnosis;
+        diagnosis.joints[1].is_lost_in_noise = true;
+        let sentence = verdict_sentence(&diagnosis);
+        let noise = "found in the model of arm, noise as large as a cause is left at joint elbow";
+        assert!(sentence.ends_with(noise), "{sentence}");
+        diagnosis.joints[0].verdict = Verdict::PartlyExplained;
+        let sentence = verdict_sentence(&diagnosis);
+        let both =
+            "structure is left at joint shoulder, noise as large as a cause is left at joint elbow";
+        assert!(sentence.ends_with(both), "{sentence}");
     }
 
     #[test]

@@ -1,5 +1,5 @@
 use crate::run::rows::{JointNumbers, joint_numbers};
-use crate::run::run_report::RunReport;
+use crate::run::run_report::{RunReport, THOUSANDTHS};
 use pages::{Dots, JointDots, LegendKey, Medium, ReportError};
 
 /// A chart of the page, with what it shows.
@@ -32,7 +32,7 @@ impl RunReport<'_> {
             dots.draw(Medium::Page)
         };
         let unseen = self.test_runs();
-        let [unit, thousandth] = self.position_units();
+        let unit = self.position_unit();
         Ok(vec![
             GainChart {
                 title: "Torque",
@@ -55,9 +55,7 @@ impl RunReport<'_> {
                      the torque of the model fed forward.",
                     self.metrics.gains
                 ),
-                svg: chart("error of the tracking", thousandth, |n| {
-                    n.tracking.map(|rms| 1e3 * rms)
-                })?,
+                svg: chart("error of the tracking", unit, |n| n.tracking)?,
             },
         ])
     }
@@ -66,7 +64,7 @@ impl RunReport<'_> {
     pub(crate) fn tracking_dots(&self) -> Result<String, ReportError> {
         let error = |rms: &Option<Vec<f64>>, j: usize| {
             let rms = rms.as_ref().and_then(|rms| rms.get(j)).copied();
-            1e3 * rms.unwrap_or(f64::NAN)
+            THOUSANDTHS * rms.unwrap_or(f64::NAN)
         };
         let joints = self.metrics.joints.iter().enumerate().map(|(j, name)| JointDots {
             name: name.clone(),
@@ -76,11 +74,40 @@ impl RunReport<'_> {
         let dots = Dots {
             title: format!("{}: error of the tracking with every model", self.metrics.robot),
             subtitle: String::new(),
-            axis: self.position_units()[1],
+            axis: self.position_unit(),
             keys: LegendKey::of_models(self.metrics.tracking.iter().map(|run| run.model.as_str())),
             joints: joints.collect(),
             mark: None,
         };
         dots.draw(Medium::Page)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use robot::JointKind;
+
+    use crate::run::sample;
+
+    /// Drift and tracking as the tables tell them: 80 mrad of the shoulder, and mm where a joint slides.
+    #[test]
+    fn charts_of_positions_are_in_thousandths_as_the_tables_are() {
+        let mut sample = sample::run();
+        let drawn = |sample: &sample::RunSample| {
+            let charts = sample.report().charts().unwrap();
+            let of = |title| charts.iter().find(|chart| chart.title == title).unwrap().svg.clone();
+            ["Simulation", "Tracking"].map(of)
+        };
+        for (svg, shoulder) in drawn(&sample).iter().zip(["80.0", "30.0"]) {
+            assert!(svg.contains(&format!("shoulder, nominal: {shoulder}")), "{svg}");
+            assert!(svg.contains(">mrad<"), "{svg}");
+        }
+        let mut links = sample.diagnosed.robot.links().to_vec();
+        links.iter_mut().for_each(|link| link.joint.kind = JointKind::Prismatic);
+        sample.diagnosed.robot =
+            robot::Robot::new("arm", nalgebra::Vector3::zeros(), links).unwrap();
+        assert!(drawn(&sample).iter().all(|svg| svg.contains(">mm<")));
+        let page = sample.report().page().unwrap();
+        assert!(page.contains("Drift of the simulation (mm)") && page.contains(">80.0<"));
     }
 }

@@ -6,7 +6,7 @@ use crate::run::charts::GainChart;
 use crate::run::claims::{ClaimRow, claim_rows};
 use crate::run::hidden::{HiddenRow, hidden_rows, score_sentence, stray_sentence};
 use crate::run::rows::{GainRow, gain_rows};
-use crate::run::run_report::RunReport;
+use crate::run::run_report::{RunReport, THOUSANDTHS};
 use pages::{
     Cell, HtmlGrid, Provenance, ReportError, TABLE_DIGITS, escape_json, render_html, render_page,
     significant,
@@ -86,23 +86,22 @@ impl RunReport<'_> {
         });
         let rms = metrics.torque.iter().map(|model| (model.model.clone(), model.rms_nm.clone()));
         let tracked = metrics.tracking.iter().map(|run| {
-            let rms = run.rms.iter().flatten().map(|rms| 1e3 * rms).collect();
-            (run.model.clone(), rms)
+            (run.model.clone(), run.rms.iter().flatten().map(|rms| THOUSANDTHS * rms).collect())
         });
-        let [unit, thousandth] = self.position_units();
+        let unit = self.position_unit();
         Ok(vec![
             ("Torque, nMSE".to_owned(), self.by_joint(nmse.collect())?),
             ("Torque, RMS error (N·m or N)".to_owned(), self.by_joint(rms.collect())?),
             (format!("Drift of the simulation ({unit})"), self.by_joint(self.drift_columns())?),
-            (format!("Tracking, RMS error ({thousandth})"), self.by_joint(tracked.collect())?),
+            (format!("Tracking, RMS error ({unit})"), self.by_joint(tracked.collect())?),
         ])
     }
 
     fn drift_columns(&self) -> Vec<(String, Vec<f64>)> {
         let columns = |window: &ForwardWindow| {
             let ms = format!("{:.0}", 1e3 * window.window_s);
-            let [nominal, extended] =
-                drifts(window).map(|drift| drift.rms.clone().unwrap_or_default());
+            let [nominal, extended] = drifts(window)
+                .map(|drift| drift.rms.iter().flatten().map(|rms| THOUSANDTHS * rms).collect());
             [(format!("{ms} ms, nominal"), nominal), (format!("{ms} ms, extended"), extended)]
         };
         self.metrics.forward.windows.iter().flat_map(columns).collect()

@@ -1,6 +1,7 @@
 use experiment::{ForwardWindow, Metrics, PredictionGain};
 
 use crate::diagnosis::forward::drifts;
+use crate::run::run_report::THOUSANDTHS;
 use pages::significant;
 
 /// Length of time after which the page shows the drift joint by joint (s).
@@ -25,10 +26,15 @@ pub(crate) fn gain_rows(metrics: &Metrics) -> Vec<GainRow> {
     )];
     for ForwardWindow { window_s, .. } in &metrics.forward.windows {
         let what = format!("drift of the simulated tip in {:.0} ms", 1e3 * window_s);
-        rows.push(gain_row(what, PredictionGain::of_drift(&metrics.forward, *window_s), "mm", 1e3));
+        rows.push(gain_row(
+            what,
+            PredictionGain::of_drift(&metrics.forward, *window_s),
+            "mm",
+            THOUSANDTHS,
+        ));
     }
     let what = format!("tracking error of the tip, gains {}", metrics.gains);
-    rows.push(gain_row(what, PredictionGain::of_tracking(&metrics.tracking), "mm", 1e3));
+    rows.push(gain_row(what, PredictionGain::of_tracking(&metrics.tracking), "mm", THOUSANDTHS));
     rows
 }
 
@@ -47,9 +53,9 @@ pub(crate) struct JointNumbers {
     pub nmse: [f64; 2],
     /// RMS error of the torque (N m or N).
     pub torque: [f64; 2],
-    /// Drift after [`TOLD_S`] (rad or m).
+    /// Drift after [`TOLD_S`] (mrad or mm).
     pub drift: [f64; 2],
-    /// RMS error of the tracking (rad or m).
+    /// RMS error of the tracking (mrad or mm).
     pub tracking: [f64; 2],
 }
 
@@ -69,10 +75,11 @@ pub(crate) fn joint_numbers(metrics: &Metrics) -> Vec<JointNumbers> {
             let model = metrics.torque.iter().find(|model| model.model == name);
             at(model.map(|model| model.rms_nm.as_slice()), joint)
         }),
-        drift: [0, 1].map(|of| at(window.and_then(|w| drifts(w)[of].rms.as_deref()), joint)),
+        drift: [0, 1]
+            .map(|of| THOUSANDTHS * at(window.and_then(|w| drifts(w)[of].rms.as_deref()), joint)),
         tracking: MODELS.map(|name| {
             let run = metrics.tracking.iter().find(|run| run.model == name);
-            at(run.and_then(|run| run.rms.as_deref()), joint)
+            THOUSANDTHS * at(run.and_then(|run| run.rms.as_deref()), joint)
         }),
     };
     (0..metrics.joints.len()).map(numbers).collect()

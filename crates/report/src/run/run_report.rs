@@ -9,6 +9,9 @@ use pages::{Provenance, ReportError, with_schema, written_schema};
 /// Name and version of the schema of `metrics.json`.
 const SCHEMA: &str = "plumbline.run/1";
 
+/// Thousandths in one: mrad a radian, mm a metre.
+pub(crate) const THOUSANDTHS: f64 = 1e3;
+
 /// Everything that the report of a run shows.
 #[derive(Debug, Clone, Copy)]
 pub struct RunReport<'a> {
@@ -32,19 +35,19 @@ impl RunReport<'_> {
         written_schema::<Metrics>(SCHEMA, "Plumbline run")
     }
 
-    /// The unit of the joints' positions, and of a thousandth of it.
-    pub(crate) fn position_units(&self) -> [&'static str; 2] {
+    /// The unit in which drifts and errors of the joints' positions are told: a thousandth of that of the positions.
+    pub(crate) fn position_unit(&self) -> &'static str {
         let links = self.robot.links();
         match links.iter().filter(|link| link.joint.kind.is_rotation()).count() {
-            0 => ["m", "mm"],
-            all if all == links.len() => ["rad", "mrad"],
-            _ => ["rad or m", "mrad or mm"],
+            0 => "mm",
+            all if all == links.len() => "mrad",
+            _ => "mrad or mm",
         }
     }
 
     /// What errors of the tracking are, as they are printed.
     pub(crate) fn tracked_unit(&self) -> ClaimUnit {
-        ClaimUnit { scale: 1e3, unit: self.position_units()[1] }
+        ClaimUnit { scale: THOUSANDTHS, unit: self.position_unit() }
     }
 
     /// `metrics.json`, in the schema `plumbline.run/1`.

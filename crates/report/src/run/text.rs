@@ -68,7 +68,7 @@ impl RunReport<'_> {
     /// One row a joint.
     fn joints(&self) -> String {
         let numbers = joint_numbers(self.metrics);
-        let [unit, thousandth] = self.position_units();
+        let unit = self.position_unit();
         let column = |header: &str, of: &dyn Fn(usize) -> [f64; 2]| GridColumn {
             header: header.to_owned(),
             cells: (0..numbers.len()).map(|joint| Cell::plain(pair(of(joint)))).collect(),
@@ -76,9 +76,7 @@ impl RunReport<'_> {
         let columns = [
             column("torque nMSE", &|j| numbers[j].nmse),
             column(&format!("drift in 200 ms ({unit})"), &|j| numbers[j].drift),
-            column(&format!("tracking ({thousandth})"), &|j| {
-                numbers[j].tracking.map(|rms| 1e3 * rms)
-            }),
+            column(&format!("tracking ({unit})"), &|j| numbers[j].tracking),
         ];
         text_grid("nominal -> extended", &self.metrics.joints, &columns)
     }
@@ -144,8 +142,8 @@ mod tests {
         );
         assert_eq!(row("drift of"), "drift of the simulated tip in 200 ms 40.0 mm 2.00 mm 20x");
         assert_eq!(row("tracking"), "tracking error of the tip, gains low 30.0 mm 1.00 mm 30x");
-        assert_eq!(row("shoulder"), "shoulder 0.0900 -> 0.000900 0.0800 -> 0.00400 30.0 -> 1.00");
-        assert_eq!(row("elbow"), "elbow - -> - 0.0400 -> 0.00200 15.0 -> 0.500");
+        assert_eq!(row("shoulder"), "shoulder 0.0900 -> 0.000900 80.0 -> 4.00 30.0 -> 1.00");
+        assert_eq!(row("elbow"), "elbow - -> - 40.0 -> 2.00 15.0 -> 0.500");
         row("The run with gp fed forward did not come to its end.");
         assert!(!text.contains("holds"), "{text}");
     }
