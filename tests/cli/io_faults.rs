@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use crate::disk::{Call, Disk, Fault};
 use crate::program::Answer;
 use crate::undisturbed::Undisturbed;
-use crate::writers::{SLOW, WALKED};
+use crate::writers::{FURTHER, SLOW, WALKED};
 
 /// Faults of each command in the short round.
 const SHORT: usize = 10;
@@ -145,5 +145,5 @@ fn a_disk_that_refuses_a_call_ends_a_command_with_2_and_leaves_nothing_half_writ
         assert!(refused > 0, "{command}: {counts:?}");
     };
     let slow = if is_long { &SLOW[..] } else { &[] };
-    WALKED.par_iter().chain(slow).for_each(told);
+    WALKED.par_iter().chain(&FURTHER).chain(slow).for_each(told);
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::disk::{Call, Disk};
 use crate::faults::grows;
-use crate::writers::{SLOW, WALKED, folder, plan};
+use crate::writers::{FURTHER, SLOW, WALKED, folder, plan};
 
 /// What lies on the disk of the files that a command has begun.
 #[derive(Debug, Default)]
@@ -82,7 +82,8 @@ fn a_power_loss_at_any_moment_leaves_no_file_empty_or_half() {
         return;
     };
     let is_long = checks::round::fresh_seeds().is_some();
-    for command in WALKED.iter().chain(if is_long { &SLOW[..] } else { &[] }) {
+    let slow = if is_long { &SLOW[..] } else { &[] };
+    for command in WALKED.iter().chain(&FURTHER).chain(slow) {
         let folder = folder();
         plan(folder.path(), command);
         let words: Vec<&str> = command.split(' ').collect();

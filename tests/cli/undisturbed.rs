@@ -136,8 +136,10 @@ impl Undisturbed {
 
 /// Whether a file says how long something took, which may be the same twice.
 fn has_times(command: &str, file: &Path) -> bool {
-    let of = ["demo", "learn", "run", "track"].iter().any(|word| command.starts_with(word));
-    of && file.extension().is_some_and(|kind| ["html", "json", "rrd"].iter().any(|k| kind == *k))
+    let times = ["demo", "figure", "learn", "run", "times", "track"];
+    let of = times.iter().any(|word| command.starts_with(word));
+    let kinds = ["html", "json", "rrd", "svg"];
+    of && file.extension().is_some_and(|kind| kinds.iter().any(|k| kind == *k))
 }
 
 /// Makes a folder what it is to be.

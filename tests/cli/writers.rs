@@ -49,6 +49,9 @@ pub const SLOW: [&str; 2] = [
     COMMANDS[8].0,
 ];
 
+/// Commands that are walked beside these: of `plumbline` there are none.
+pub const FURTHER: [&str; 0] = [];
+
 /// Kills of each of [`WALKED`] in the long round.
 pub const KILLS: usize = 75;
 

@@ -18,6 +18,7 @@ mod info;
 mod kinds;
 mod lerobot;
 mod link_lag;
+mod many_arrays;
 mod maps;
 mod matlab;
 mod noise;

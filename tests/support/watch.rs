@@ -83,8 +83,9 @@ impl Patience {
     }
 }
 
-/// Time of all threads of this program on the processor (s; utime and stime of proc(5), in hundredths).
-fn processor_s() -> Option<f64> {
+/// Time of all threads of this program on the processor (s; utime and stime of proc(5), in hundredths), where the system
+/// tells it.
+pub fn processor_s() -> Option<f64> {
     let stat = fs::read_to_string("/proc/self/stat").ok()?;
     // The second field is a name in parentheses.
     let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
