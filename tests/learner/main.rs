@@ -9,3 +9,4 @@ mod golden_torques;
 mod long_memory;
 mod recorded;
 mod semiparametric;
+mod streamed;

@@ -1,6 +1,6 @@
 //! Prints the time of one inverse dynamics of the WAM (ns) and a checksum, and the same of its
 //! derivatives, for the comparison with Pinocchio: `pinocchio.cpp` does the same with the same states. Of whole arrays
-//! it prints the time of a sample too, for `inverse_dynamics.py` of the crate `python`.
+//! it prints the time of a sample too. `tests/benches/compare_peers.sh` runs both.
 
 #![allow(clippy::unwrap_used, reason = "a benchmark that cannot build its input has failed")]
 

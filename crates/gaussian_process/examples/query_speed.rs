@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! cargo run --release -p gaussian_process --example query_speed -- 100 3000 30000
-//! python3 crates/gaussian_process/peers_query.py --batch 3000 100 3000
+//! python3 crates/gaussian_process/benches/peers_query.py --batch 3000 100 3000
 //! ```
 
 use std::hint::black_box;

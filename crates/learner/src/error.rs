@@ -69,6 +69,14 @@ pub enum LearnerError {
         /// What is wrong with it.
         reason: String,
     },
+    /// A file does not hold samples that can be learned from.
+    #[error("{}: not samples that can be learned from: {reason}", path.display())]
+    NotSamples {
+        /// The file.
+        path: std::path::PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// A saved model is one of another robot.
     #[error(
         "{}: this is a model of {found} (joints {found_joints}), whose joints, axes or origins \

@@ -9,11 +9,9 @@ use crate::training::{JointFit, TrainedModel, Training, residuals};
 /// Candidates for every inducing point.
 const CANDIDATES: usize = 3;
 
-/// Samples that are worked through at a time.
-const BLOCK: usize = 8192;
-
 impl Training<'_> {
-    /// A process conditioned on all samples through inducing points that all joints share.
+    /// A process conditioned on all samples through inducing points that all joints share. For `m` points it holds `m²`
+    /// numbers a joint and one block of samples, however many there are.
     ///
     /// The hyperparameters are those of the exact process on the thinned points; the points
     /// are chosen for the geometric mean of the joints' kernels, since a query over shared
@@ -32,14 +30,15 @@ impl Training<'_> {
             kernels.iter().map(|k| Inducing::new(&points, &k.kernel, per_point * k.noise_variance));
         let mut learners = learners.collect::<Result<Vec<_>, _>>()?;
         self.progress.stage(&format!("summing {} samples for {kind}", self.all.len()));
-        for start in (0..self.all.len()).step_by(BLOCK) {
-            let block = self.all.select(start..(start + BLOCK).min(self.all.len()));
-            let inputs = self.inputs.points(&block);
-            let targets = residuals(self.robot, &mean, &block);
+        let (robot, own) = (self.robot, &self.inputs);
+        self.all.blocks(&mut |block| {
+            let inputs = own.points(block);
+            let targets = residuals(robot, &mean, block);
             for (learner, y) in learners.iter_mut().zip(&targets) {
                 learner.add(&inputs, y)?;
             }
-        }
+            Ok(())
+        })?;
         let posteriors =
             learners.into_iter().map(Inducing::finish).collect::<Result<Vec<_>, _>>()?;
         let alpha: Vec<Vec<f64>> = posteriors.iter().map(|p| p.alpha.clone()).collect();
@@ -57,7 +56,7 @@ impl Training<'_> {
 
     fn shared_points(&self, kernels: &[GaussianKernel]) -> Result<Vec<f64>, LearnerError> {
         let count = self.settings.inducing_points;
-        let candidates = self.inputs.points(&self.all.thin(CANDIDATES * count));
+        let candidates = self.inputs.points(&self.all.thinned(CANDIDATES * count)?);
         let kernel = shared_kernel(kernels)?;
         let chosen = inducing_points(&candidates, &kernel, count)?;
         let width = self.inputs.width();

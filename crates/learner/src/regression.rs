@@ -8,6 +8,7 @@ use robot::Robot;
 
 use crate::block_sums::{BlockSums, JointSums, Sums};
 use crate::error::LearnerError;
+use crate::sample_source::SampleSource;
 use crate::samples::{SampleSlices, Samples};
 
 /// Samples that one thread sums at a time: their rows stay in its cache.
@@ -132,6 +133,15 @@ impl Regression {
             return Err(LearnerError::WrongJoints { expected, got });
         }
         self.add(samples.stretch())
+    }
+
+    /// Adds the samples of a source, a block at a time.
+    ///
+    /// # Errors
+    ///
+    /// [`LearnerError::WrongJoints`], those of [`Regression::add`] and those of reading. What comes before is added then.
+    pub fn add_source(&mut self, source: &dyn SampleSource) -> Result<(), LearnerError> {
+        source.blocks(&mut |block| self.add_samples(block))
     }
 
     /// Number of samples of a stretch that can be used.

@@ -81,6 +81,19 @@ impl Samples {
         Self { joints, q, qd, qdd, tau, runs: Vec::new() }
     }
 
+    /// The signals `[q, qd, qdd, tau]`, row-major, of samples without runs.
+    pub(crate) fn of_signals(joints: usize, [q, qd, qdd, tau]: [Vec<f64>; 4]) -> Self {
+        Self { joints, q, qd, qdd, tau, runs: Vec::new() }
+    }
+
+    /// Appends samples without runs.
+    pub(crate) fn append(&mut self, more: &Self) {
+        self.q.extend_from_slice(&more.q);
+        self.qd.extend_from_slice(&more.qd);
+        self.qdd.extend_from_slice(&more.qdd);
+        self.tau.extend_from_slice(&more.tau);
+    }
+
     /// Number of samples.
     pub fn len(&self) -> usize {
         self.q.len().checked_div(self.joints).unwrap_or(0)
@@ -158,16 +171,18 @@ impl Samples {
         }
     }
 
-    /// Refuses samples with an entry that is not finite.
+    /// Refuses samples with an entry that is not finite; `before` so many samples come before these, and count in what is
+    /// refused.
     ///
     /// # Errors
     ///
     /// [`LearnerError::BadSample`].
-    pub fn check(&self) -> Result<(), LearnerError> {
+    pub(crate) fn check_behind(&self, before: usize) -> Result<(), LearnerError> {
         let signals = [("q", &self.q), ("qd", &self.qd), ("qdd", &self.qdd), ("tau", &self.tau)];
         for (signal, values) in signals {
             if let Some(at) = values.iter().position(|v| !v.is_finite()) {
-                let (sample, joint) = (at / self.joints.max(1), at % self.joints.max(1));
+                let (row, joint) = (at / self.joints.max(1), at % self.joints.max(1));
+                let sample = before + row;
                 let value = values[at];
                 return Err(LearnerError::BadSample { signal, sample, joint, value });
             }

@@ -12,6 +12,7 @@ use crate::model_kind::ModelKind;
 use crate::progress::TrainingProgress;
 use crate::rigid_body_fit::RigidBodyFit;
 use crate::robot_torque::RobotTorque;
+use crate::sample_source::SampleSource;
 use crate::samples::Samples;
 use crate::settings::TrainSettings;
 use crate::torque_model::TorqueModel;
@@ -52,7 +53,7 @@ pub struct Training<'a> {
     pub(crate) settings: &'a TrainSettings,
     pub(crate) progress: &'a dyn TrainingProgress,
     /// Every sample.
-    pub(crate) all: &'a Samples,
+    pub(crate) all: &'a dyn SampleSource,
     /// Those that exact processes are conditioned on.
     pub(crate) few: Samples,
     pub(crate) inputs: ProcessInputs,
@@ -65,7 +66,7 @@ pub struct Training<'a> {
 }
 
 impl<'a> Training<'a> {
-    /// Prepares the training on `samples` of `robot`, whose joints count as at rest below
+    /// Prepares the training on `samples` of `robot`, in memory or in a file, whose joints count as at rest below
     /// `rest_speed` (rad/s or m/s, one entry a joint).
     ///
     /// # Errors
@@ -74,7 +75,7 @@ impl<'a> Training<'a> {
     /// exact processes of that many points would not fit into memory.
     pub fn new(
         robot: &'a Robot,
-        samples: &'a Samples,
+        samples: &'a dyn SampleSource,
         rest_speed: Vec<f64>,
         settings: &'a TrainSettings,
         progress: &'a dyn TrainingProgress,
@@ -87,9 +88,14 @@ impl<'a> Training<'a> {
         if expected != got {
             return Err(LearnerError::WrongJoints { expected, got });
         }
-        samples.check()?;
+        let mut before = 0;
+        samples.blocks(&mut |block| {
+            block.check_behind(before)?;
+            before += block.len();
+            Ok(())
+        })?;
         memory::check(settings.points.min(samples.len()), expected)?;
-        let few = samples.thin(settings.points);
+        let few = samples.thinned(settings.points)?;
         let inputs = ProcessInputs::new(&few, settings.direction_speeds.clone());
         let points = inputs.points(&few);
         let (regression, named, kernels) = (None, None, BTreeMap::new());

@@ -1,6 +1,6 @@
 //! Time of one simulated second of the WAM at steps of 0.1 ms and commands at 500 Hz.
 //!
-//! `compare_mujoco.sh` beside this file puts MuJoCo's figures for the same arms next to these.
+//! `tests/benches/compare_peers.sh` puts MuJoCo's figures for the plain arm and the one with friction beside ours.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use simulator::{Sensors, Simulator, StepOrder, Stepping};
 const FRICTION: [f64; 7] = [1.6, 0.53, 0.37, 0.64, 0.036, 0.071, 0.0125];
 const KP: [f64; 7] = [200.0, 300.0, 100.0, 100.0, 10.0, 10.0, 2.5];
 const KD: [f64; 7] = [7.0, 15.0, 5.0, 2.5, 0.3, 0.3, 0.05];
-/// Stiffness of the elastic joints (N m/rad), as in `mujoco_speed.py`.
+/// Stiffness of the elastic joints (N m/rad).
 const ELASTIC: [(&str, f64); 2] = [("j2_shoulder_pitch", 1e4), ("j4_elbow_pitch", 4e3)];
 const LOOSE: [&str; 2] = ["j2_shoulder_pitch", "j4_elbow_pitch"];
 

@@ -106,10 +106,10 @@ def seen(trial, truth):
     return [(names.get(c["effect"]), c.get("joint") or c.get("link")) for c in visible]
 
 
-def answer(trial):
+def identify(trial, wanted=None):
+    """The arm with what was found, the logs, and the names; `wanted` are the effects and places that are free, else all."""
     spec = spec_of(trial)
     logs, sequences = sequences_of(trial, spec)
-    wanted = seen(trial, sys.argv[3]) if len(sys.argv) > 3 else None
     is_free = lambda at: wanted is None or (at["effect"], at.get("joint") or at.get("link")) in wanted
     listed = [one for one in free(trial, spec, logs, wanted) if is_free(one[0])]
     parameters, names = sysid.ParameterDict(), []
@@ -130,9 +130,15 @@ def answer(trial):
             if np.isfinite(width) and abs(value - described) > max(least, width):
                 size = {"parameter": parameter, "value": value, "interval": [value - width, value + width], "described": described}
                 names.append(at | {"sizes": [size]})
+    return spec, logs, names
+
+
+def answer(trial):
+    spec, _, names = identify(trial, seen(trial, sys.argv[3]) if len(sys.argv) > 3 else None)
     held_out = trial.held_out()
     tau = mjcf_torque(spec.compile(), trial.joints, held_out)
     return {"names": names, "prediction": trial.predict(held_out, tau), "model": trial.hand_in(spec.to_xml())}
 
 
-answer_all(answer)
+if __name__ == "__main__":
+    answer_all(answer)
