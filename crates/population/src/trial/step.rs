@@ -13,6 +13,9 @@ const SHORTEST_MS: f64 = 0.1;
 /// Tolerated error of the simulation, as a share of an encoder step.
 const SHARE_OF_STEP: f64 = 0.1;
 
+/// Share of an error of second order that halving the step takes away.
+const HALVING_TAKES: f64 = 0.75;
+
 /// Length of motion in which two steps are compared (s).
 const COMPARED_S: f64 = 3.0;
 
@@ -25,7 +28,7 @@ pub(crate) fn whole_step_ms(period_ms: f64, at_most_ms: f64) -> f64 {
 /// halved until it does:
 ///
 /// ```text
-/// error(h) = max over samples and joints of |q_h - q_(h/2)| / encoder step of the joint
+/// error(h) = 4/3 max over samples and joints of |q_h - q_(h/2)| / encoder step of the joint
 /// ```
 ///
 /// at the beginning of the first run of the scenario; `with_step` gives the scenario in steps of a length.
@@ -40,7 +43,7 @@ pub(crate) fn step_ms(
     while step > 1.5 * SHORTEST_MS {
         let fine = positions(&with_step(0.5 * step)?, effects);
         if let (Some(coarse), Some(fine)) = (&coarse, &fine)
-            && largest_error(coarse, fine, encoder_steps) < SHARE_OF_STEP
+            && largest_error(coarse, fine, encoder_steps) < HALVING_TAKES * SHARE_OF_STEP
         {
             return Ok(step);
         }
