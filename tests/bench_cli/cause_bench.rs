@@ -10,7 +10,9 @@ use checks::book::can;
 use checks::recorded;
 use serde_json::{Value, json};
 
+use crate::disk::{Disk, Fault};
 use crate::program::run;
+use crate::writers::EXPORT;
 
 /// The first trials of the set, without their truth.
 fn export(folder: &Path, name: &str, arguments: &[&str]) {
@@ -299,4 +301,34 @@ fn the_page_of_the_book_is_the_one_of_the_program() {
     let anew =
         format!("plumbline-bench board {} > docs/src/benchmark.md makes it anew", files.join(" "));
     assert!(page == answer.out, "{anew}");
+}
+
+/// The disk fails at each read of an answer and of its prediction: the score, which would count nothing said, is not told.
+#[test]
+fn an_answer_that_the_disk_refuses_has_no_score() {
+    let Some(disk) = Disk::build() else {
+        println!("skipped: there is no compiler cc");
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let made = run(folder.path(), &EXPORT.split(' ').collect::<Vec<_>>());
+    assert_eq!(made.code, 0, "{}", made.err);
+    let answers = folder.path().join("out/answers");
+    fs::create_dir(&answers).unwrap();
+    fs::copy(folder.path().join("out/set/trial_001/held_out.npz"), answers.join("one.npz"))
+        .unwrap();
+    fs::write(answers.join("trial_001.json"), r#"{"prediction": "one.npz"}"#).unwrap();
+    let score = ["score", "out/set", "out/answers", "--truth", "out/set.truth.json"];
+    let (whole, calls) = disk.run(folder.path(), &score, None);
+    let first_read = |file: &str| {
+        let of_file =
+            |call: &&crate::disk::Call| call.operation == "read" && call.path.ends_with(file);
+        calls.iter().find(of_file).unwrap()
+    };
+    for file in ["trial_001.json", "one.npz"] {
+        let call = first_read(file);
+        let (answer, _) = disk.run(folder.path(), &score, Some((call.number, Fault::Broken)));
+        assert_eq!(answer.code, 2, "{file}: {} instead of {}", answer.err, whole.out);
+        assert!(answer.err.contains(file) && answer.out.is_empty(), "{}", answer.err);
+    }
 }

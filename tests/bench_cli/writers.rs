@@ -14,15 +14,23 @@ pub const COMMANDS: [(&str, &str); 2] = [
 
 /// Commands that write below `out`, of which every call to the disk is refused, and those that take seconds.
 pub const WALKED: [&str; 2] = [COMMANDS[0].0, COMMANDS[1].0];
-pub const SLOW: [&str; 3] = [
+pub const SLOW: [&str; 4] = [
     "merge out",
+    "damage population.toml --kinds spikes --quiet --out out",
     "account out --quiet --store out/store",
     "times --robot arm.urdf --quiet --out out",
 ];
 
 /// Further ones of which calls are refused.
-pub const FURTHER: [&str; 3] =
-    ["figure figure.toml --quiet --out out", "sheets out/store", "submit out --dry-run"];
+pub const FURTHER: [&str; 4] =
+    ["figure figure.toml --quiet --out out", "sheets out/store", "submit out --dry-run", EXPORT];
+
+/// Writes a set of CauseBench with one trial.
+pub const EXPORT: &str =
+    "export --set smoke --first 1 --jobs 1 --quiet --out out/set --truth out/set.truth.json";
+
+/// Those that refuse a folder in which they have been.
+pub const ONCE: [&str; 1] = [EXPORT];
 
 /// Kills of each of [`WALKED`] in the long round.
 pub const KILLS: usize = 50;

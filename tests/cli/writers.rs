@@ -52,6 +52,9 @@ pub const SLOW: [&str; 2] = [
 /// Commands that are walked beside these: of `plumbline` there are none.
 pub const FURTHER: [&str; 0] = [];
 
+/// Those that refuse a folder in which they have been.
+pub const ONCE: [&str; 0] = [];
+
 /// Kills of each of [`WALKED`] in the long round.
 pub const KILLS: usize = 75;
 

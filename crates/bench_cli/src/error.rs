@@ -37,6 +37,7 @@ impl BenchError {
                 | BenchmarkError::NoTruthSheets { .. }
                 | BenchmarkError::NoPopulation { .. }
                 | BenchmarkError::UnusableBenchFile { .. }
+                | BenchmarkError::UnreadAnswer(_)
                 | BenchmarkError::TrialFolder { .. }
                 | BenchmarkError::Population(_) => 2,
                 _ => 3,

@@ -12,4 +12,6 @@ pub struct AnswerFault {
     pub found: String,
     /// What was expected.
     pub expected: String,
+    /// The disk failed: nothing is known of the answer.
+    pub is_unread: bool,
 }

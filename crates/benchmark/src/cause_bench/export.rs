@@ -21,6 +21,9 @@ use crate::trial_folder::{HELD_OUT, LOGS, NOMINAL, log_files, unusable};
 /// Time of every exported file (s of Unix time): the start of the year 2020 in UTC.
 const FILE_TIME_S: u64 = 1_577_836_800;
 
+/// File in a folder whose export has begun and not ended.
+const BEGUN: &str = ".plumbline-export";
+
 /// Channels of a held-out log. What a controller is told would tell its efforts, by its gains.
 const HELD_OUT_CHANNELS: [&str; 2] = [".position", ".velocity"];
 
@@ -72,6 +75,19 @@ pub fn export_set(
     on_trial: &(dyn Fn() + Sync),
 ) -> Result<BenchManifest, BenchmarkError> {
     prepare(request)?;
+    let made = make_set(request, on_trial);
+    if made.is_err() {
+        // What was begun is no set, and the folder was empty.
+        clear(&request.folder).map_err(unusable(&request.folder))?;
+    }
+    made
+}
+
+/// Makes the trials, the truth, and the manifest last.
+fn make_set(
+    request: &ExportRequest,
+    on_trial: &(dyn Fn() + Sync),
+) -> Result<BenchManifest, BenchmarkError> {
     let spec = request.set.population();
     let all =
         spec.as_ref().map_or_else(|| count_recorded_splits(&request.data), |spec| spec.trials);
@@ -95,11 +111,23 @@ pub fn export_set(
     let manifest = BenchManifest { schema, set: request.set, truth_sha256, trials };
     let text = serde_json::to_string_pretty(&manifest).unwrap_or_default() + "\n";
     write(&request.folder.join(BenchManifest::FILE), &text)?;
+    let begun = request.folder.join(BEGUN);
+    fs::remove_file(&begun).map_err(unusable(&begun))?;
     set_times(&request.folder).map_err(unusable(&request.folder))?;
     Ok(manifest)
 }
 
-/// Refuses a folder with files in it, and a truth inside of it.
+/// Removes all that is in the folder of a set.
+fn clear(folder: &Path) -> std::io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.is_dir() { fs::remove_dir_all(&path)? } else { fs::remove_file(&path)? }
+    }
+    Ok(())
+}
+
+/// Refuses a folder with files in it, but for what an export that was killed left, which is removed, and a truth inside
+/// of it; marks the folder as begun.
 fn prepare(request: &ExportRequest) -> Result<(), BenchmarkError> {
     let folder = &request.folder;
     fs::create_dir_all(folder).map_err(unusable(folder))?;
@@ -107,6 +135,10 @@ fn prepare(request: &ExportRequest) -> Result<(), BenchmarkError> {
         let (path, found) = (path.to_owned(), found.to_owned());
         Err(BenchmarkError::UnusableBenchFile { path, found, expected })
     };
+    let begun = folder.join(BEGUN);
+    if begun.is_file() {
+        write(&begun, "plumbline-bench export\n")?;
+    }
     if fs::read_dir(folder).map_err(unusable(folder))?.next().is_some() {
         return refuse(folder, "a folder with files in it", "an empty one");
     }
@@ -114,7 +146,7 @@ fn prepare(request: &ExportRequest) -> Result<(), BenchmarkError> {
     if files::is_below(beside.unwrap_or(Path::new(".")), folder) {
         return refuse(&request.truth, "a file in the folder of the set", "one outside of it");
     }
-    Ok(())
+    write(&begun, "plumbline-bench export\n")
 }
 
 fn threads(jobs: usize) -> Result<ThreadPool, BenchmarkError> {

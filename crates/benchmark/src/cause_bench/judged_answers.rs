@@ -26,11 +26,15 @@ pub(super) struct JudgedAnswer {
 }
 
 /// Judges the answers in a folder, and says which count as nothing said.
+///
+/// # Errors
+///
+/// [`AnswerFault`] of an answer that the disk failed to read.
 pub(super) fn judge(
     (manifest, truth): (&BenchManifest, &BenchTruth),
     answers: &Path,
     replay: &ReplayDrift,
-) -> (Vec<JudgedAnswer>, Vec<AnswerFault>) {
+) -> Result<(Vec<JudgedAnswer>, Vec<AnswerFault>), AnswerFault> {
     let (mut judged, mut faults) = (Vec::new(), Vec::new());
     for trial in &manifest.trials {
         let Some(truth) = truth.trials.get(&trial.name) else { continue };
@@ -40,7 +44,10 @@ pub(super) fn judge(
         });
         judged.push(JudgedAnswer::new((trial, truth), answer, replay, &mut faults));
     }
-    (judged, faults)
+    match faults.iter().position(|fault| fault.is_unread) {
+        Some(unread) => Err(faults.swap_remove(unread)),
+        None => Ok((judged, faults)),
+    }
 }
 
 impl JudgedAnswer {

@@ -1,5 +1,7 @@
 use std::path::Path;
 
+use files::FileError;
+
 use crate::cause_bench::answer_fault::AnswerFault;
 use crate::cause_bench::bench_truth::TrialTruth;
 use crate::cause_bench::table_file::{NamedColumns, read};
@@ -33,7 +35,7 @@ pub(super) fn nmse(truth: &TrialTruth, predicted: &NamedColumns) -> Option<f64> 
 ///
 /// # Errors
 ///
-/// [`AnswerFault`]: the prediction then counts as none.
+/// [`AnswerFault`]: the prediction then counts as none, but where the disk failed.
 pub(super) fn read_prediction(
     path: &Path,
     truth: &TrialTruth,
@@ -43,8 +45,13 @@ pub(super) fn read_prediction(
         place: place.to_owned(),
         found,
         expected,
+        is_unread: false,
     };
     let table = "a table of the columns time and JOINT.effort".to_owned();
+    // A decoder that cannot read on calls the file broken, so that the disk is asked before.
+    if let Err(FileError::Unreadable { reason }) = files::each_piece(path, |_| ()) {
+        return Err(AnswerFault { is_unread: true, ..fault("", reason, table) });
+    }
     let columns = read(path).map_err(|error| fault("", error.to_string(), table))?;
     for (joint, efforts) in &truth.held_out_effort {
         let name = format!("{joint}.effort");

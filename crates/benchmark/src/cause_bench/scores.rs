@@ -63,8 +63,8 @@ impl BenchScores {
     ///
     /// # Errors
     ///
-    /// [`BenchmarkError::UnusableBenchFile`] for a set, a truth or drifts that cannot be used. An answer that cannot be used
-    /// is a fault.
+    /// [`BenchmarkError::UnusableBenchFile`] for a set, a truth or drifts that cannot be used, and
+    /// [`BenchmarkError::UnreadAnswer`] for an answer that the disk failed to read. An answer that cannot be used is a fault.
     pub fn new(
         folder: &Path,
         answers: &Path,
@@ -81,7 +81,7 @@ impl BenchScores {
         }
         let truth = BenchTruth::open(truth, &manifest.truth_sha256)?;
         let replay = replay.map(ReplayDrift::open).transpose()?.unwrap_or_default();
-        let (judged, faults) = judge((&manifest, &truth), answers, &replay);
+        let (judged, faults) = judge((&manifest, &truth), answers, &replay)?;
         let whole = answers.canonicalize().unwrap_or_else(|_| answers.to_owned());
         let entrant = whole.file_name().unwrap_or_default().to_string_lossy().into_owned();
         Ok(Self {

@@ -47,13 +47,14 @@ impl SpokenAnswer {
     ///
     /// # Errors
     ///
-    /// [`AnswerFault`] with the first key at fault. The whole answer then counts as nothing said.
+    /// [`AnswerFault`] with the first key at fault. The whole answer then counts as nothing said, but where the disk failed.
     pub fn read(folder: &Path, trial: &BenchTrial) -> Result<Self, AnswerFault> {
         let path = folder.join(format!("{}.json", trial.name));
         let check = Check { path: &path, folder, trial };
         let whole = |found: String| check.fault("", found, "the answer to a trial as JSON");
         let text = files::text(&path, MOST_BYTES).map_err(|error| match error {
             FileError::Missing => whole("no file".to_owned()),
+            FileError::Unreadable { reason } => AnswerFault { is_unread: true, ..whole(reason) },
             error => whole(error.to_string()),
         })?;
         let unread =
@@ -75,7 +76,8 @@ struct Check<'a> {
 impl Check<'_> {
     fn fault(&self, place: &str, found: String, expected: &str) -> AnswerFault {
         let place = if place.is_empty() { String::new() } else { format!("{place}: ") };
-        AnswerFault { path: self.path.to_owned(), place, found, expected: expected.to_owned() }
+        let (path, expected) = (self.path.to_owned(), expected.to_owned());
+        AnswerFault { path, place, found, expected, is_unread: false }
     }
 
     fn answer(&self, answer: TrialAnswer) -> Result<SpokenAnswer, AnswerFault> {

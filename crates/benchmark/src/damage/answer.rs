@@ -5,6 +5,7 @@ use diagnosis::{EffectAt, Finding, Settings, Silent, Verdict};
 use experiment::ExperimentError;
 use robot::Robot;
 
+use crate::disk_failure::is_of_the_disk;
 use crate::error::BenchmarkError;
 use crate::trial_folder::read_runs;
 
@@ -40,6 +41,7 @@ impl DamageAnswer {
         let settings = Settings { control_rate_hz: loaded.control.rate_hz, ..Settings::default() };
         let given = match read_runs(&folder.join("logs"), &loaded.robot) {
             Ok(given) => given,
+            Err(error) if is_of_the_disk(&error) => return Err(error),
             Err(BenchmarkError::Experiment(error)) => {
                 let ExperimentError::Log(refusal) = &*error else { return Err((*error).into()) };
                 return Ok(Self::refusal(refusal.to_string()));
