@@ -141,9 +141,13 @@ impl MadeTrial {
         // The same seed at every size: the joint stays, and the rows of a smaller share are among those of a larger one.
         let spec = LogDamageSpec { kind, size, seed: self.seed ^ kind as u64 };
         let spoilt = folder.join("spoilt").join(format!("{kind}-{size}-{trial}"));
-        let Some(damage) = damage_logs(&self.folder, &spec, &spoilt)? else { return Ok(None) };
-        let after = DamageAnswer::of_folder(&spoilt)?;
-        fs::remove_dir_all(&spoilt).map_err(unusable(&spoilt))?;
+        let answer = |damage| Ok((damage, DamageAnswer::of_folder(&spoilt)?));
+        let damaged = damage_logs(&self.folder, &spec, &spoilt).map_err(BenchmarkError::from);
+        let answered = damaged.and_then(|damage| damage.map(answer).transpose());
+        if spoilt.exists() {
+            fs::remove_dir_all(&spoilt).map_err(unusable(&spoilt))?;
+        }
+        let Some((damage, after)) = answered? else { return Ok(None) };
         let is_told = is_told(&self.answer, &after, &damage);
         let telling = if is_told { Telling::Told } else { Telling::Untold };
         let place = format!("{}/", spoilt.display());
