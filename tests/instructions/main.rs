@@ -50,7 +50,6 @@ fn no_hot_loop_takes_more_instructions_than_its_figure_says_or_fewer() {
 
 /// What the test above has valgrind count; alone it does nothing.
 #[test]
-#[ignore = "runs under valgrind"]
 fn counted() {
     let Some(asked) = std::env::var_os(ASKED) else { return };
     let asked = asked.into_string().unwrap();
@@ -97,7 +96,7 @@ fn count(l: &Loop, rounds: usize) -> f64 {
     let answer = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
         .arg(std::env::current_exe().unwrap())
-        .args(["--exact", "counted", "--include-ignored", "--test-threads=1"])
+        .args(["--exact", "counted", "--test-threads=1"])
         .env(ASKED, format!("{} {rounds}", l.name))
         .env("RAYON_NUM_THREADS", "1")
         .output()

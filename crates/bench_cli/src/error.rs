@@ -37,7 +37,6 @@ impl BenchError {
                 | BenchmarkError::NoTruthSheets { .. }
                 | BenchmarkError::NoPopulation { .. }
                 | BenchmarkError::UnusableBenchFile { .. }
-                | BenchmarkError::UnreadAnswer(_)
                 | BenchmarkError::TrialFolder { .. }
                 | BenchmarkError::Population(_) => 2,
                 _ => 3,

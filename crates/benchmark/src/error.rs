@@ -10,8 +10,6 @@ use population::PopulationError;
 use robot::RobotError;
 use simulator::SimulatorError;
 
-use crate::cause_bench::answer_fault::AnswerFault;
-
 /// Why a campaign or a figure cannot be planned, made, compared or drawn.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -115,9 +113,6 @@ pub enum BenchmarkError {
         /// What was expected.
         expected: &'static str,
     },
-    /// An answer of CauseBench could not be read.
-    #[error(transparent)]
-    UnreadAnswer(#[from] AnswerFault),
     /// A described arm cannot be written for other programs.
     #[error(transparent)]
     Exchange(#[from] ExchangeError),

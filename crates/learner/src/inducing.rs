@@ -56,7 +56,7 @@ impl Training<'_> {
 
     fn shared_points(&self, kernels: &[GaussianKernel]) -> Result<Vec<f64>, LearnerError> {
         let count = self.settings.inducing_points;
-        let candidates = self.inputs.points(&self.all.thinned(CANDIDATES * count)?);
+        let candidates = self.inputs.points(&self.all.thin(CANDIDATES * count)?);
         let kernel = shared_kernel(kernels)?;
         let chosen = inducing_points(&candidates, &kernel, count)?;
         let width = self.inputs.width();

@@ -69,7 +69,7 @@ impl SampleFile {
     /// [`LearnerError::NotSamples`] for a file that cannot be read, or has other columns.
     pub fn open(path: &Path) -> Result<Self, LearnerError> {
         let found = columns_and_rows(path);
-        let (names, samples) = found.map_err(|reason| refused(path, reason))?;
+        let (names, samples) = found.map_err(|reason| refusal(path, reason))?;
         let joints = names.len() / SIGNALS.len();
         let expected = column_names(joints.max(1));
         if names != expected {
@@ -78,7 +78,7 @@ impl SampleFile {
                 Some((found, expected)) => format!("column {found} was found, {expected} expected"),
                 None => format!("{} columns were found, {} expected", names.len(), expected.len()),
             };
-            return Err(refused(path, reason));
+            return Err(refusal(path, reason));
         }
         Ok(Self { path: path.to_owned(), joints, samples })
     }
@@ -108,16 +108,16 @@ impl SampleSource for SampleFile {
             let built: Result<ParquetRecordBatchReader, _> = builder.with_batch_size(BLOCK).build();
             built.map_err(|e| e.to_string())
         });
-        let reader = reader.map_err(|reason| refused(&self.path, reason))?;
+        let reader = reader.map_err(|reason| refusal(&self.path, reason))?;
         for batch in reader {
-            let batch = batch.map_err(|e| refused(&self.path, e.to_string()))?;
+            let batch = batch.map_err(|e| refusal(&self.path, e.to_string()))?;
             let samples = samples_of(&batch, self.joints);
-            take(&samples.map_err(|reason| refused(&self.path, reason))?)?;
+            take(&samples.map_err(|reason| refusal(&self.path, reason))?)?;
         }
         Ok(())
     }
 
-    fn thinned(&self, points: usize) -> Result<Samples, LearnerError> {
+    fn thin(&self, points: usize) -> Result<Samples, LearnerError> {
         let n = self.samples;
         let points = points.min(n);
         let chosen: Vec<usize> = (0..points).map(|i| i * n / points).collect();
@@ -164,7 +164,7 @@ impl<'a> SampleWriter<'a> {
     }
 }
 
-fn refused(path: &Path, reason: String) -> LearnerError {
+fn refusal(path: &Path, reason: String) -> LearnerError {
     LearnerError::NotSamples { path: path.to_owned(), reason }
 }
 

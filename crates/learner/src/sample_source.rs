@@ -33,7 +33,7 @@ pub trait SampleSource: Sync {
     /// # Errors
     ///
     /// Those of reading.
-    fn thinned(&self, points: usize) -> Result<Samples, LearnerError>;
+    fn thin(&self, points: usize) -> Result<Samples, LearnerError>;
 }
 
 impl SampleSource for Samples {
@@ -56,7 +56,7 @@ impl SampleSource for Samples {
         Ok(())
     }
 
-    fn thinned(&self, points: usize) -> Result<Samples, LearnerError> {
+    fn thin(&self, points: usize) -> Result<Samples, LearnerError> {
         Ok(self.thin(points))
     }
 }

@@ -95,7 +95,7 @@ impl<'a> Training<'a> {
             Ok(())
         })?;
         memory::check(settings.points.min(samples.len()), expected)?;
-        let few = samples.thinned(settings.points)?;
+        let few = samples.thin(settings.points)?;
         let inputs = ProcessInputs::new(&few, settings.direction_speeds.clone());
         let points = inputs.points(&few);
         let (regression, named, kernels) = (None, None, BTreeMap::new());

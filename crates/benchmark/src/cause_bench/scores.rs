@@ -3,6 +3,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use crate::cause_bench::answer_fault::AnswerFault;
 use crate::cause_bench::bench_set::BenchSet;
 use crate::cause_bench::bench_truth::BenchTruth;
 use crate::cause_bench::judged_answers::{JudgedAnswer, judge};
@@ -63,8 +64,8 @@ impl BenchScores {
     ///
     /// # Errors
     ///
-    /// [`BenchmarkError::UnusableBenchFile`] for a set, a truth or drifts that cannot be used, and
-    /// [`BenchmarkError::UnreadAnswer`] for an answer that the disk failed to read. An answer that cannot be used is a fault.
+    /// [`BenchmarkError::UnusableBenchFile`] for a set, a truth or drifts that cannot be used, and for an answer that the disk
+    /// failed to read. An answer that cannot be used is a fault.
     pub fn new(
         folder: &Path,
         answers: &Path,
@@ -81,7 +82,11 @@ impl BenchScores {
         }
         let truth = BenchTruth::open(truth, &manifest.truth_sha256)?;
         let replay = replay.map(ReplayDrift::open).transpose()?.unwrap_or_default();
-        let (judged, faults) = judge((&manifest, &truth), answers, &replay)?;
+        let unread = |fault: AnswerFault| {
+            let (path, found, expected) = (fault.path, fault.found, "a file that can be read");
+            BenchmarkError::UnusableBenchFile { path, found, expected }
+        };
+        let (judged, faults) = judge((&manifest, &truth), answers, &replay).map_err(unread)?;
         let whole = answers.canonicalize().unwrap_or_else(|_| answers.to_owned());
         let entrant = whole.file_name().unwrap_or_default().to_string_lossy().into_owned();
         Ok(Self {
