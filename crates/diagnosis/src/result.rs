@@ -97,6 +97,7 @@ pub struct JointReport {
     pub noise_floor_from: NoiseFloorSource,
     /// Whether what is left is within the noise, and that so large a share of the effort that a cause may hide in it: such
     /// a joint is open though no structure is seen in it.
+    #[serde(default)]
     pub is_lost_in_noise: bool,
     /// Noise and residual over frequency.
     pub spectrum: NoiseSpectrum,

@@ -148,6 +148,10 @@ fn follow_velocity(robot: &Robot, run: &mut Run, joint: usize) {
     else {
         return;
     };
+    // One goal has no rate.
+    if goal.values.len() < 2 || run.time.is_empty() {
+        return;
+    }
     let step_s = usual_step(&run.time);
     let time = |k: usize| match k.checked_sub(goal.lead) {
         Some(row) => run.time[row],

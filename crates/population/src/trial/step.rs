@@ -17,7 +17,7 @@ const SHARE_OF_STEP: f64 = 0.1;
 const HALVING_TAKES: f64 = 0.75;
 
 /// Length of motion in which two steps are compared (s).
-const COMPARED_S: f64 = 3.0;
+const COMPARED_S: f64 = 10.0;
 
 /// The longest step up to `at_most_ms` that divides a period of control (ms).
 pub(crate) fn whole_step_ms(period_ms: f64, at_most_ms: f64) -> f64 {
