@@ -13,8 +13,9 @@ const SHORTEST_MS: f64 = 0.1;
 /// Tolerated error of the simulation, as a share of an encoder step.
 const SHARE_OF_STEP: f64 = 0.1;
 
-/// Share of an error of second order that halving the step takes away.
-const HALVING_TAKES: f64 = 0.75;
+/// Share of the error that halving the step takes away at least: where joints break loose and come to rest it falls with the
+/// first power of the step.
+const HALVING_TAKES: f64 = 0.5;
 
 /// Length of motion in which two steps are compared (s).
 const COMPARED_S: f64 = 10.0;
@@ -28,7 +29,7 @@ pub(crate) fn whole_step_ms(period_ms: f64, at_most_ms: f64) -> f64 {
 /// halved until it does:
 ///
 /// ```text
-/// error(h) = 4/3 max over samples and joints of |q_h - q_(h/2)| / encoder step of the joint
+/// error(h) = 2 max over samples and joints of |q_h - q_(h/2)| / encoder step of the joint
 /// ```
 ///
 /// at the beginning of the first run of the scenario; `with_step` gives the scenario in steps of a length.
