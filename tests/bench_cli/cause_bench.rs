@@ -11,7 +11,7 @@ use checks::recorded;
 use serde_json::{Value, json};
 
 use crate::disk::{Disk, Fault};
-use crate::program::run;
+use crate::program::{plumbline_bench, run};
 use crate::writers::EXPORT;
 
 /// The first trials of the set, without their truth.
@@ -157,6 +157,26 @@ fn a_truth_inside_the_set_and_a_folder_with_files_are_refused() {
     let answer = run(path, &arguments);
     assert_eq!(answer.code, 2);
     assert!(answer.err.contains("set: a folder with files in it was found"), "{}", answer.err);
+}
+
+/// A set whose export is killed once it has files is begun anew, and is the set of an export that nothing disturbed.
+#[test]
+fn an_export_that_was_killed_is_begun_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = ["export", "--set", "smoke", "--first", "12", "--quiet", "--out", "set"];
+    let mut killed = plumbline_bench().args(arguments).current_dir(folder.path()).spawn().unwrap();
+    let set = folder.path().join("set");
+    let has_trials = || fs::read_dir(&set).is_ok_and(|entries| entries.count() > 1);
+    while !has_trials() {
+        assert!(killed.try_wait().unwrap().is_none(), "it came to its end without a trial");
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    killed.kill().unwrap();
+    killed.wait().unwrap();
+    assert!(!set.join("manifest.json").exists(), "it came to its end");
+    export(folder.path(), "set", &[]);
+    export(folder.path(), "whole", &[]);
+    assert!(files(&set) == files(&folder.path().join("whole")), "another set");
 }
 
 #[test]

@@ -77,8 +77,8 @@ pub fn export_set(
     prepare(request)?;
     let made = make_set(request, on_trial);
     if made.is_err() {
-        // What was begun is no set, and the folder was empty.
-        clear(&request.folder).map_err(unusable(&request.folder))?;
+        // What was begun is no set, and the folder was empty. What cannot be removed now is removed by the next export.
+        let _ = clear(&request.folder);
     }
     made
 }
@@ -117,13 +117,21 @@ fn make_set(
     Ok(manifest)
 }
 
-/// Removes all that is in the folder of a set.
+/// Removes all that is in the folder of a set whose export has begun, the file that says so last.
 fn clear(folder: &Path) -> std::io::Result<()> {
+    let begun = folder.join(BEGUN);
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
-        if path.is_dir() { fs::remove_dir_all(&path)? } else { fs::remove_file(&path)? }
+        match path.is_dir() {
+            true => fs::remove_dir_all(&path)?,
+            false if path == begun => {}
+            false => fs::remove_file(&path)?,
+        }
     }
-    Ok(())
+    match fs::remove_file(&begun) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(()),
+        removed => removed,
+    }
 }
 
 /// Refuses a folder with files in it, but for what an export that was killed left, which is removed, and a truth inside
@@ -137,7 +145,7 @@ fn prepare(request: &ExportRequest) -> Result<(), BenchmarkError> {
     };
     let begun = folder.join(BEGUN);
     if begun.is_file() {
-        write(&begun, "plumbline-bench export\n")?;
+        clear(folder).map_err(unusable(folder))?;
     }
     if fs::read_dir(folder).map_err(unusable(folder))?.next().is_some() {
         return refuse(folder, "a folder with files in it", "an empty one");
