@@ -132,3 +132,26 @@ fn what_is_no_file_of_samples_is_refused_by_name() {
     let said = training.err().unwrap().to_string();
     assert_eq!(said, "q of joint 0 in sample 9001 is NaN, which no sensor reports");
 }
+
+/// Bytes of a file of samples turned over, some at a time: its samples come, or a refusal that names it.
+#[test]
+fn a_damaged_file_of_samples_is_read_or_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("samples.parquet");
+    let signal: Vec<f64> = (0..600).map(|i| f64::from(i % 37).sin()).collect();
+    let columns = ["q_1", "qd_1", "qdd_1", "tau_1"].map(|name| (name.to_owned(), signal.clone()));
+    logs::write_columns(&path, &columns).unwrap();
+    let whole = std::fs::read(&path).unwrap();
+    let mut refusals = 0;
+    for place in 0..whole.len() {
+        let mut damaged = whole.clone();
+        damaged[place] ^= 1 << (place % 8);
+        std::fs::write(&path, damaged).unwrap();
+        let read = SampleFile::open(&path).and_then(|file| file.blocks(&mut |_| Ok(())));
+        if let Err(error) = read {
+            assert!(matches!(error, LearnerError::NotSamples { .. }), "byte {place}: {error}");
+            refusals += 1;
+        }
+    }
+    assert!(refusals > whole.len() / 10, "{refusals} of {}", whole.len());
+}

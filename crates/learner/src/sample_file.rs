@@ -1,3 +1,4 @@
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -16,6 +17,9 @@ use crate::samples::{SampleSlices, Samples};
 
 /// Signals of a sample, in the order of the columns.
 const SIGNALS: [&str; 4] = ["q", "qd", "qdd", "tau"];
+
+/// What is said of a file at which the decoder panics.
+const GAVE_UP: &str = "the decoder gave up";
 
 /// Rows of a part of the file, which the writer holds until it is full.
 const ROW_GROUP: usize = 2 * BLOCK;
@@ -108,8 +112,10 @@ impl SampleSource for SampleFile {
             let built: Result<ParquetRecordBatchReader, _> = builder.with_batch_size(BLOCK).build();
             built.map_err(|e| e.to_string())
         });
-        let reader = reader.map_err(|reason| refusal(&self.path, reason))?;
-        for batch in reader {
+        let mut reader = reader.map_err(|reason| refusal(&self.path, reason))?;
+        // Damaged pages, as a damaged footer (see `builder`).
+        let mut next = || catch_unwind(AssertUnwindSafe(|| reader.next()));
+        while let Some(batch) = next().map_err(|_| refusal(&self.path, GAVE_UP.to_owned()))? {
             let batch = batch.map_err(|e| refusal(&self.path, e.to_string()))?;
             let samples = samples_of(&batch, self.joints);
             take(&samples.map_err(|reason| refusal(&self.path, reason))?)?;
@@ -172,8 +178,8 @@ fn builder(path: &Path) -> Result<ParquetRecordBatchReaderBuilder<std::fs::File>
     let file = files::open(path).map_err(|e| e.to_string())?;
     logs::check_parquet_nesting(&file)?;
     // The decoder panics at some damaged files instead of refusing them.
-    let built = std::panic::catch_unwind(|| ParquetRecordBatchReaderBuilder::try_new(file));
-    built.map_err(|_| "the decoder gave up".to_owned())?.map_err(|e| e.to_string())
+    let built = catch_unwind(|| ParquetRecordBatchReaderBuilder::try_new(file));
+    built.map_err(|_| GAVE_UP.to_owned())?.map_err(|e| e.to_string())
 }
 
 fn columns_and_rows(path: &Path) -> Result<(Vec<String>, usize), String> {

@@ -4,8 +4,9 @@
 //! M(q) qdd + C(q, qd) qd + g(q) + effects = tau
 //! ```
 //!
-//! Rapier solves the equations of motion. The project's own dynamics is not used here, so that the
-//! code that makes a log and the code that explains it check each other.
+//! Rapier solves the equations of motion in steps of first order; in those of second order ([`StepOrder`]), which replays
+//! take, a tree of bodies of this crate does. The project's own dynamics is not used here, so that the code that makes a log
+//! and the code that explains it check each other.
 
 mod delay_line;
 pub mod effects;
