@@ -13,6 +13,7 @@ mod formats;
 mod found;
 mod grafts;
 mod held_out;
+mod held_values;
 mod hidden;
 mod intervals;
 mod late_goals;

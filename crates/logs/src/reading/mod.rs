@@ -1,6 +1,7 @@
 //! Reads a file into a checked run.
 
 pub(crate) mod finder;
+pub(crate) mod held_values;
 pub(crate) mod options;
 pub(crate) mod overview;
 pub(crate) mod plan;

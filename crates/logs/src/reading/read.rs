@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use log_formats::{Columns, CountedRows, Damage, FormatError, Opened, column_names, open};
-use robot::Robot;
+use robot::{Robot, TorqueSource};
 
 use crate::{
     checks::{
@@ -11,7 +11,12 @@ use crate::{
     },
     error::LogError,
     naming::{column_map::ColumnMap, time_name::other_time},
-    reading::{options::ReadOptions, plan::Plan, position_loop},
+    reading::{
+        held_values::{Efforts, take_new_values},
+        options::ReadOptions,
+        plan::Plan,
+        position_loop,
+    },
     runs::{repair::Repair, run::Run},
 };
 
@@ -27,6 +32,8 @@ use crate::{
 ///   neighbours, or an effort or speed of a size that no joint has.
 /// - Full turns by which the position of a rotation jumps are removed.
 /// - Time stamps that scatter by more than a step are replaced by an even clock.
+/// - Rows that repeat the values of earlier rows while the arm moves are left out, and signals that come at a slower
+///   rate than the rows are taken at that rate.
 ///
 /// A file is CSV, Parquet, NumPy (npz or npy), MATLAB (mat of version 5 or 7.3), HDF5, MCAP or SQLite, or one of these
 /// packed with gzip or zstd. The first bytes of the file identify its kind.
@@ -186,6 +193,16 @@ fn read_open_log(
             channels.link_position = link.map(|link| to_turn_of(&channels.position, link));
         }
     }
+    let efforts = match robot
+        .links()
+        .iter()
+        .all(|link| link.actuator.torque_source == TorqueSource::Commanded)
+    {
+        _ if plan.is_effort_computed => Efforts::Computed,
+        true => Efforts::Commanded,
+        false => Efforts::Measured,
+    };
+    mended.extend(take_new_values(&mut time, &mut joints, &mut table.columns, efforts));
     if plan.is_effort_computed {
         for (link, channels) in robot.links().iter().zip(&mut joints) {
             position_loop::compute_effort(&link.actuator, &time, channels);

@@ -25,6 +25,26 @@ pub enum Repair {
         /// Largest distance of a time stamp from the even clock (s).
         largest_s: f64,
     },
+    /// Rows repeated all values of earlier rows while the arm moved, and were left out or interpolated.
+    Repeats {
+        /// Number of rows that were left out, and of all rows.
+        repeats: [usize; 2],
+        /// Rate of the rows (Hz).
+        log_hz: f64,
+        /// Rate of the values (Hz); `None` where it is not even.
+        rate_hz: Option<f64>,
+        /// Whether these rows were left out; otherwise their values are interpolated.
+        is_left_out: bool,
+    },
+    /// Some signals were held for several rows each, and all signals are taken at their rate.
+    Held {
+        /// What was held, in the plural.
+        held: &'static str,
+        /// Rate of the rows (Hz).
+        log_hz: f64,
+        /// Rate of the values (Hz).
+        rate_hz: f64,
+    },
     /// Efforts were not measured: they were computed from the position loop in `robot.toml`.
     FromPositionLoop,
     /// Long logs were thinned out to stretches, spread evenly over them.
@@ -61,6 +81,11 @@ impl Repair {
         }
     }
 
+    /// Whether the values of the log come at an even rate that is lower than that of its rows.
+    pub(crate) fn is_of_rate(&self) -> bool {
+        matches!(self, Self::Held { .. } | Self::Repeats { rate_hz: Some(_), .. })
+    }
+
     /// Whether both are the same change of all logs. Such a change is reported once.
     pub(crate) fn says_of_all(&self, other: &Self) -> bool {
         match (self, other) {
@@ -89,6 +114,26 @@ impl fmt::Display for Repair {
                 1e3 * largest_s,
                 1e3 * step_s
             ),
+            Self::Repeats { log_hz, rate_hz: Some(rate_hz), .. } => write!(
+                f,
+                "values come at {} Hz and are held in rows of {} Hz; they are taken at their own rate",
+                digits(*rate_hz),
+                digits(*log_hz)
+            ),
+            Self::Repeats { repeats: [repeats, rows], is_left_out, .. } => write!(
+                f,
+                "{repeats} of {rows} rows repeat the values of earlier rows while the arm moves; {}",
+                match is_left_out {
+                    true => "these rows are left out",
+                    false => "their values are interpolated between the rows beside them",
+                }
+            ),
+            Self::Held { held, log_hz, rate_hz } => write!(
+                f,
+                "{held} come at {} Hz and are held in rows of {} Hz; all signals are taken at the rate of the {held}",
+                digits(*rate_hz),
+                digits(*log_hz)
+            ),
             Self::FromPositionLoop => f.write_str(
                 "no effort was measured: it is taken as kp (goal - q) - kd qd with the gains of effort_source in \
                  robot.toml. Every size in N m is one in units of these gains: the scale of all efforts cannot be \
@@ -109,5 +154,16 @@ impl fmt::Display for Repair {
                 )
             }
         }
+    }
+}
+
+/// A rate to three digits.
+fn digits(hz: f64) -> String {
+    let decimals = (2.0 - hz.log10().floor()).clamp(0.0, 6.0) as usize;
+    let words = format!("{hz:.decimals$}");
+    if words.contains('.') {
+        words.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        words
     }
 }

@@ -107,36 +107,41 @@ impl Piece {
         (0..count).map(|k| first + k as f64 / self.rate_hz).collect()
     }
 
-    /// A signal at the uniform clock, by cubic Hermite interpolation:
-    ///
-    /// ```text
-    /// x(t) = h00 x0 + h10 (t1 - t0) m0 + h01 x1 + h11 (t1 - t0) m1
-    /// ```
-    ///
-    /// `m` is the slope of the parabola through a row and its two neighbours (Catmull-Rom on a
-    /// non-uniform clock). A neighbour is at least about a step away. Beside a filled gap a nearer neighbour
-    /// would turn one encoder count over one sample into a slope.
+    /// A signal at the uniform clock: as it is where the rows lie on it, else by [`interpolate`].
     pub(crate) fn resample(&self, time: &[f64], x: &[f64], clock: &[f64]) -> Vec<f64> {
         let (t, x) = (&time[self.rows.clone()], &x[self.rows.clone()]);
         if self.is_uniform || t.len() < 2 {
             return x.to_vec();
         }
-        let mut k = 0;
-        let mut at = |now: f64| {
-            while k + 2 < t.len() && t[k + 1] <= now {
-                k += 1;
-            }
-            let step = t[k + 1] - t[k];
-            let s = ((now - t[k]) / step).clamp(0.0, 1.0);
-            let (s2, s3) = (s * s, s * s * s);
-            let [m0, m1] = slopes(t, x, k);
-            (2.0 * s3 - 3.0 * s2 + 1.0) * x[k]
-                + (s3 - 2.0 * s2 + s) * step * m0
-                + (3.0 * s2 - 2.0 * s3) * x[k + 1]
-                + (s3 - s2) * step * m1
-        };
-        clock.iter().map(|&now| at(now)).collect()
+        interpolate(t, x, clock)
     }
+}
+
+/// A signal of two or more rows at the times of a clock, by cubic Hermite interpolation:
+///
+/// ```text
+/// x(t) = h00 x0 + h10 (t1 - t0) m0 + h01 x1 + h11 (t1 - t0) m1
+/// ```
+///
+/// `m` is the slope of the parabola through a row and its two neighbours (Catmull-Rom on a
+/// non-uniform clock). A neighbour is at least about a step away. Beside a filled gap a nearer neighbour
+/// would turn one encoder count over one sample into a slope.
+pub(crate) fn interpolate(t: &[f64], x: &[f64], clock: &[f64]) -> Vec<f64> {
+    let mut k = 0;
+    let mut at = |now: f64| {
+        while k + 2 < t.len() && t[k + 1] <= now {
+            k += 1;
+        }
+        let step = t[k + 1] - t[k];
+        let s = ((now - t[k]) / step).clamp(0.0, 1.0);
+        let (s2, s3) = (s * s, s * s * s);
+        let [m0, m1] = slopes(t, x, k);
+        (2.0 * s3 - 3.0 * s2 + 1.0) * x[k]
+            + (s3 - 2.0 * s2 + s) * step * m0
+            + (3.0 * s2 - 2.0 * s3) * x[k + 1]
+            + (s3 - s2) * step * m1
+    };
+    clock.iter().map(|&now| at(now)).collect()
 }
 
 /// Slopes at both ends of the step from row `k` to the next.

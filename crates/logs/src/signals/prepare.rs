@@ -180,11 +180,19 @@ fn run_warnings(
         let is_said = |mend: &&Repair| {
             runs[..index].iter().flat_map(|r| &r.mended).any(|m| m.says_of_all(mend))
         };
-        let mended = run.mended.iter().filter(|mend| !is_said(mend)).cloned();
-        warnings.extend(mended.map(|mend| match mend {
-            Repair::Stretches { .. } => LogWarning::Thinned { mend },
-            _ => LogWarning::Mended { run: name(), mend },
-        }));
+        for mend in run.mended.iter().filter(|mend| !is_said(mend)).cloned() {
+            let alike = |other: &&mut LogWarning| matches!(other, LogWarning::OtherRate { mend: of, .. } if of.to_string() == mend.to_string());
+            match warnings.iter_mut().find(alike) {
+                Some(LogWarning::OtherRate { runs, .. }) => runs.push(name()),
+                _ if mend.is_of_rate() => {
+                    warnings.push(LogWarning::OtherRate { runs: vec![name()], mend });
+                }
+                _ if matches!(mend, Repair::Stretches { .. }) => {
+                    warnings.push(LogWarning::Thinned { mend });
+                }
+                _ => warnings.push(LogWarning::Mended { run: name(), mend }),
+            }
+        }
         let unknown = run.unknown_joints().into_iter();
         warnings.extend(unknown.map(|joint| LogWarning::UnknownJoint { run: name(), joint }));
         if let Some(earlier) = duplicate_of(runs, index) {

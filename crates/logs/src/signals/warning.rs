@@ -26,6 +26,14 @@ pub enum LogWarning {
         /// The change.
         mend: Repair,
     },
+    /// The values of runs come at a lower rate than their rows.
+    #[error("{}: {mend}", of_runs(runs))]
+    OtherRate {
+        /// The runs.
+        runs: Vec<String>,
+        /// The change.
+        mend: Repair,
+    },
     /// Only part of the logs is used.
     #[error("{mend}")]
     Thinned {
@@ -166,6 +174,16 @@ fn joint_words(joints: &[String]) -> String {
         [] => "no joint".to_owned(),
         [one] => format!("joint {one}"),
         [first @ .., last] => format!("joints {} and {last}", first.join(", ")),
+    }
+}
+
+/// Runs in words: `run wipe`, `runs log_1, log_2 and log_3`.
+fn of_runs(runs: &[String]) -> String {
+    match runs {
+        [first @ .., last] if !first.is_empty() => {
+            format!("runs {} and {last}", first.join(", "))
+        }
+        _ => of_run(runs.first().map_or("", String::as_str)),
     }
 }
 
