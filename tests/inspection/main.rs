@@ -4,6 +4,7 @@
 mod arms_with_friction;
 mod counted_together;
 mod effort_units;
+mod locked_elsewhere;
 mod recorded;
 mod spoil;
 mod spoilt;

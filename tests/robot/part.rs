@@ -93,6 +93,49 @@ fn oracle_a_locked_arm_needs_the_torque_that_pinocchio_gives_the_whole_one_with_
     }
 }
 
+/// A robot that is locked anew, and one that is read with these positions, are the ones that Pinocchio holds there.
+#[test]
+fn oracle_joints_are_locked_elsewhere_as_pinocchio_holds_them() {
+    let golden = std::fs::read_to_string(in_workspace("tests/golden/part.json")).unwrap();
+    let golden: Golden = serde_json::from_str(&golden).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("arm.urdf");
+    std::fs::write(&path, urdf()).unwrap();
+    for Case { locked, states } in golden.cases {
+        let zeros = locked.keys().map(|name| (name.clone(), 0.0)).collect();
+        let load = |locked: BTreeMap<String, f64>| {
+            let options = LoadOptions { locked, ..LoadOptions::default() };
+            Robot::load_with(&path, &options).unwrap().robot
+        };
+        let (read, anew) = (load(locked.clone()), load(zeros).locked_at(&locked).unwrap());
+        assert_eq!(anew.locks().len(), locked.len());
+        for (robot, state) in
+            [&read, &anew].into_iter().flat_map(|r| states.iter().map(move |s| (r, s)))
+        {
+            assert_close(&torques(robot, [&state.q, &state.qd, &state.qdd]), &state.tau);
+        }
+        assert_eq!(anew.locked_at(&BTreeMap::from([("nothing".to_owned(), 0.0)])), None);
+    }
+}
+
+#[test]
+fn locked_joints_that_cannot_be_are_refused_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("arm.urdf");
+    std::fs::write(&path, urdf()).unwrap();
+    let refused = |joints: Option<&str>, name: &str, at: f64| {
+        let joints = joints.map(|name| vec![name.to_owned()]);
+        let locked = BTreeMap::from([(name.to_owned(), at)]);
+        let options = LoadOptions { joints, locked, ..LoadOptions::default() };
+        let error = Robot::load_with(&path, &options).unwrap_err();
+        message(&error, folder.path())
+    };
+    assert!(refused(None, "elbw", 0.1).contains("elbow"), "{}", refused(None, "elbw", 0.1));
+    let both = refused(Some("elbow"), "elbow", 0.1);
+    assert!(both.contains("elbow") && both.contains("among those that are locked"), "{both}");
+    assert!(refused(None, "elbow", f64::NAN).contains("locked position"));
+}
+
 #[test]
 fn joints_that_are_left_out_are_locked_at_zero_as_the_whole_arm_held_there_shows() {
     let whole = Robot::from_urdf(&urdf()).unwrap();

@@ -141,11 +141,12 @@ impl DiagnosedInput {
 
     /// The part of the robot that was meant, where `given` says nothing else.
     pub fn part(&self, given: &PartArguments) -> PartArguments {
-        let InputOptions { joints, packages, allow_outside, .. } = &self.options;
+        let InputOptions { joints, locked, packages, allow_outside, .. } = &self.options;
         let packages =
             packages.iter().map(|(name, at)| (name.clone(), near(&self.folder().join(at))));
         PartArguments {
             joints: if given.joints.is_empty() { joints.clone() } else { given.joints.clone() },
+            locked: locked.iter().chain(&given.locked).cloned().collect(),
             package: packages.chain(given.package.iter().cloned()).collect(),
             allow_outside: given.allow_outside || *allow_outside,
         }
@@ -233,6 +234,7 @@ pub fn file_of(path: &Path) -> PathBuf {
 pub fn options_of(part: &PartArguments, reading: &LogArguments) -> InputOptions {
     InputOptions {
         joints: part.joints.clone(),
+        locked: part.locked.clone(),
         packages: part.package.clone(),
         allow_outside: part.allow_outside,
         all_samples: reading.length.all_samples,

@@ -18,9 +18,12 @@ const HEADING: &str = "Which part of the robot is meant, and its meshes";
 #[derive(Debug, Clone, clap::Args)]
 pub struct PartArguments {
     /// The joints that move, with commas between them; the others are locked at zero, or where
-    /// `locked` in the robot.toml says
+    /// --locked or `locked` in the robot.toml says
     #[arg(long, help_heading = HEADING, value_name = "JOINT", value_delimiter = ',')]
     pub joints: Vec<String>,
+    /// Where locked joints stand (rad or m), with commas between them
+    #[arg(long, help_heading = HEADING, value_name = "JOINT=POSITION", value_delimiter = ',', value_parser = lock)]
+    pub locked: Vec<(String, f64)>,
     /// Folder of a package that meshes of the URDF are in; may be said again. ROS_PACKAGE_PATH and
     /// AMENT_PREFIX_PATH are looked through as well
     #[arg(long, help_heading = HEADING, value_name = "NAME=DIR", value_parser = package)]
@@ -43,7 +46,8 @@ impl PartArguments {
         packages.named.extend(self.package.iter().cloned());
         let joints = (!self.joints.is_empty()).then(|| self.joints.clone());
         let meshes = if self.allow_outside { MeshFolders::Anywhere } else { MeshFolders::Below };
-        Robot::load_with(&file_of(path)?, &LoadOptions { joints, packages, meshes })
+        let locked = self.locked.iter().cloned().collect();
+        Robot::load_with(&file_of(path)?, &LoadOptions { joints, locked, packages, meshes })
     }
 }
 
@@ -189,6 +193,18 @@ pub fn hashes_of(runs: &[Run]) -> impl Iterator<Item = FileHash> {
 /// An effect of an option, by name or code.
 fn effect(name: &str) -> Result<EffectKind, String> {
     find_effect(name).map_err(|error| error.to_string())
+}
+
+/// A locked joint and its position, as `panda_joint3=1.2`.
+fn lock(text: &str) -> Result<(String, f64), String> {
+    let expected = || "a joint and its position were expected, such as joint_3=1.2".to_owned();
+    let (name, position) = text.split_once('=').ok_or_else(expected)?;
+    let position: f64 = position.trim().parse().map_err(|_| expected())?;
+    if name.is_empty() || !position.is_finite() {
+        Err(expected())
+    } else {
+        Ok((name.to_owned(), position))
+    }
 }
 
 /// A package of an option.

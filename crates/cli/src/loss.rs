@@ -105,6 +105,7 @@ impl LossArguments {
         let mut part = diagnosed.map_or_else(|| part.clone(), |input| input.part(part));
         if part.joints.is_empty() && !loaded.part.is_whole() {
             part.joints = loaded.robot.joint_names().map(str::to_owned).collect();
+            part.locked = loaded.part.locked.clone().into_iter().collect();
         }
         let nominal = part.load(&file)?.robot;
         if !nominal.joint_names().eq(loaded.robot.joint_names()) {

@@ -1,3 +1,5 @@
+use std::borrow::Cow;
+
 use robot::Robot;
 
 use crate::fit::{Drive, Fitted, ProductSums};
@@ -9,7 +11,7 @@ use crate::thresholds::InspectionThresholds;
 
 /// Compares readings of samples with the nominal torque.
 pub(crate) struct Judge<'a> {
-    pub robot: &'a Robot,
+    pub robot: Cow<'a, Robot>,
     pub thresholds: &'a InspectionThresholds,
     torque: NominalTorque,
     pub samples: MotionSamples,
@@ -43,7 +45,16 @@ impl<'a> Judge<'a> {
         let gravity = torque.gravity(&samples);
         let whole = torque.whole(samples.joints, &samples.motion);
         let floors = floors(&samples, thresholds);
-        Self { robot, thresholds, torque, samples, inertial, gravity, whole, floors }
+        Self {
+            robot: Cow::Borrowed(robot),
+            thresholds,
+            torque,
+            samples,
+            inertial,
+            gravity,
+            whole,
+            floors,
+        }
     }
 
     /// The bounds of a drive of nearly the right torque constant.
@@ -93,10 +104,18 @@ impl<'a> Judge<'a> {
             _ if reading.is_of_efforts() => self.whole.clone(),
             LogReading::WithoutGravity => self.inertial.clone(),
             LogReading::Gravity(g) => self.torque_under([g.x, g.y, g.z]),
+            LogReading::LockedAt(locks) => match self.robot.locked_at(locks) {
+                Some(robot) => NominalTorque::new(&robot).whole(read.joints, &read.motion),
+                None => self.whole.clone(),
+            },
             _ => self.torque.whole(read.joints, &read.motion),
         };
         let narrow = Drive { gain: self.thresholds.unit_gain };
-        let drive = if matches!(reading, LogReading::Unit(_)) { narrow } else { self.drive() };
+        let drive = match reading {
+            LogReading::Unit(_) => narrow,
+            LogReading::LockedAt(_) => self.exact_drive(),
+            _ => self.drive(),
+        };
         let shares: Vec<f64> = self.fits(&read, &tau, drive).iter().map(|f| f.share).collect();
         let gain = self.gain(&as_is.shares, &shares);
         ReadingFit { reading, before: as_is.shares.clone(), shares, gain }
@@ -187,6 +206,12 @@ impl<'a> Judge<'a> {
     /// Reads the samples so from now on.
     pub fn adopt(&mut self, reading: &LogReading) {
         self.samples = reading.apply(&self.samples);
+        if let LogReading::LockedAt(locks) = reading
+            && let Some(robot) = self.robot.locked_at(locks)
+        {
+            self.torque = NominalTorque::new(&robot);
+            self.robot = Cow::Owned(robot);
+        }
         match reading {
             LogReading::WithoutGravity => {
                 self.gravity.iter_mut().flatten().for_each(|unit| *unit = 0.0);

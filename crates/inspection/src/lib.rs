@@ -12,6 +12,7 @@ mod inspect;
 mod judge;
 mod jumps;
 mod limits;
+mod locked;
 mod log_reading;
 mod mend;
 mod moments;
@@ -35,7 +36,7 @@ mod zeros;
 pub use inspect::{inspect, inspect_with};
 pub use mend::{CorrectedLogs, correct, correct_with};
 pub use observation::{
-    CountedTogether, JointUnit, Observation, ObservationKind, ReadingEvidence, Rival, RunStretch,
-    RunZero, Spoils,
+    CountedTogether, JointUnit, Observation, ObservationKind, OtherLock, ReadingEvidence, Rival,
+    RunStretch, RunZero, Spoils,
 };
 pub use thresholds::{InspectionThresholds, MomentThresholds};

@@ -1,3 +1,4 @@
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use nalgebra::Vector3;
@@ -35,6 +36,8 @@ pub(crate) enum LogReading {
     Gravity(Vector3<f64>),
     /// Logged time per second.
     Time(f64),
+    /// Joints that are locked stand elsewhere than described: name and position (rad).
+    LockedAt(BTreeMap<String, f64>),
 }
 
 impl LogReading {
@@ -47,7 +50,7 @@ impl LogReading {
             None => signal.iter_mut().for_each(|x| *x *= by),
         };
         match self {
-            Self::AsIs | Self::WithoutGravity | Self::Gravity(_) => {}
+            Self::AsIs | Self::WithoutGravity | Self::Gravity(_) | Self::LockedAt(_) => {}
             Self::EffortSign(joint) => {
                 scale(&mut read.effort, *joint, -1.0);
                 scale(&mut read.goal_rate, *joint, -1.0);
@@ -127,7 +130,11 @@ impl LogReading {
                 joint.is_none()
             }
             Self::Unit(factors) => factors.iter().all(|f| f.is_none_or(is_another_unit)),
-            Self::WithoutGravity | Self::Gravity(_) | Self::Time(_) | Self::GoalVelocity(_) => true,
+            Self::WithoutGravity
+            | Self::Gravity(_)
+            | Self::Time(_)
+            | Self::GoalVelocity(_)
+            | Self::LockedAt(_) => true,
             _ => false,
         }
     }
@@ -163,6 +170,7 @@ impl LogReading {
                 (if angle > aligned { turned } else { other }, all())
             }
             Self::Time(factor) => (K::TimeUnit { factor: *factor }, all()),
+            Self::LockedAt(_) => (K::LockedElsewhere, all()),
         };
         Some(Rival { kind, joints })
     }

@@ -16,6 +16,8 @@ pub struct Observation {
     pub units: Vec<JointUnit>,
     /// The zero of each run's effort, where they differ.
     pub zeros: Vec<RunZero>,
+    /// Positions of locked joints that fit the efforts, where they differ from the description.
+    pub locks: Vec<OtherLock>,
     /// Runs that it concerns, by index.
     pub runs: Vec<usize>,
     /// The seconds that it concerns, where it does not concern whole runs.
@@ -34,8 +36,8 @@ impl Observation {
         runs: Vec<usize>,
         spoils: Spoils,
     ) -> Self {
-        let (or, units, zeros, stretches) = Default::default();
-        Self { kind, or, joints, units, zeros, runs, stretches, spoils, evidence: None }
+        let (or, units, zeros, locks, stretches) = Default::default();
+        Self { kind, or, joints, units, zeros, locks, runs, stretches, spoils, evidence: None }
     }
 
     /// An observation of some seconds of a joint, which cannot be used.
@@ -70,6 +72,17 @@ pub struct RunZero {
     pub run: usize,
     /// Effort at no torque, beyond what the description says (N m or N).
     pub offset: f64,
+}
+
+/// A locked joint, and where it seems to stand.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OtherLock {
+    /// Name of the joint.
+    pub joint: String,
+    /// Where it is locked (rad).
+    pub described: f64,
+    /// The position that fits the efforts (rad).
+    pub position: f64,
 }
 
 /// A reading that explains the logs as well as another one.
@@ -257,6 +270,8 @@ pub enum ObservationKind {
         /// Length of what they share (s).
         length_s: f64,
     },
+    /// Joints that the robot has locked stand elsewhere.
+    LockedElsewhere,
     /// Links of the description have an inertia in another unit.
     InertiaUnit,
     /// The efforts contradict the nominal torque.

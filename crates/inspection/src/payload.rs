@@ -33,7 +33,7 @@ pub(crate) fn shares_with_a_tool(judge: &Judge, drive: Drive) -> Option<Vec<f64>
 /// Torque of each joint per mass and first moment of the last link, row-major, `rows x joints`.
 fn tool_columns(judge: &Judge) -> [Vec<f64>; 4] {
     let n = judge.samples.joints;
-    let dynamics = Dynamics::new(judge.robot);
+    let dynamics = Dynamics::new(&judge.robot);
     let mut workspace = dynamics.workspace();
     let width = n * PARAMETERS_PER_LINK;
     let mut y = vec![0.0; n * width];

@@ -6,6 +6,7 @@ use crate::effort_unit::{effort_unit, joint_units};
 use crate::fit::Drive;
 use crate::goal_velocity::goal_velocity;
 use crate::judge::{Judge, ReadingFit};
+use crate::locked::{locked_elsewhere, other_locks};
 use crate::log_reading::LogReading;
 use crate::observation::{CountedTogether, Observation, ReadingEvidence, Rival, Spoils};
 use crate::payload::shares_with_a_tool;
@@ -27,8 +28,12 @@ pub(crate) fn readings(judge: &mut Judge, runs: usize) -> Vec<Observation> {
 fn best(judge: &mut Judge, as_is: &ReadingFit) -> Option<(ReadingFit, Vec<ReadingFit>)> {
     let t = judge.thresholds;
     let candidates = candidates(judge, as_is);
-    let mut judged: Vec<ReadingFit> =
-        candidates.into_iter().map(|reading| judge.judge_reading(reading, as_is)).collect();
+    let locks = locked_elsewhere(judge, as_is);
+    let mut judged: Vec<ReadingFit> = candidates
+        .into_iter()
+        .chain(locks)
+        .map(|reading| judge.judge_reading(reading, as_is))
+        .collect();
     let without = judge.without_gravity();
     if let Some(without) = without {
         if judge.lacks_gravity_at_joints() {
@@ -120,6 +125,7 @@ fn observation(
     Some(Observation {
         or,
         units: joint_units(judge, &best.reading),
+        locks: other_locks(&judge.robot, &best.reading),
         evidence: Some(evidence),
         ..Observation::of_runs(kind, joints, (0..runs).collect(), spoils)
     })

@@ -4,7 +4,7 @@ use logs::{Run, of_run};
 use robot::Robot;
 
 use crate::observation::{
-    CountedTogether, JointUnit, Observation, ObservationKind, Rival, RunStretch, RunZero,
+    CountedTogether, JointUnit, Observation, ObservationKind, OtherLock, Rival, RunStretch, RunZero,
 };
 
 const FOREIGN: &str = "Nothing of the nominal torque is in the efforts, whatever sign, order, unit, gravity or clock \
@@ -26,6 +26,9 @@ impl Observation {
         if let Some(own) = names.own_units(&self.units) {
             text = own;
         }
+        if !self.locks.is_empty() {
+            text = locks(&self.locks);
+        }
         if let Some(zeros) = names.zeros(&self.zeros, &self.joints) {
             text += &zeros;
         }
@@ -45,6 +48,10 @@ impl Observation {
         if let Some(e) = &self.evidence {
             let read = match self.kind {
                 ObservationKind::AnotherRobot => "friction and offset alone",
+                ObservationKind::LockedElsewhere if self.locks.len() == 1 => {
+                    "with that joint there"
+                }
+                ObservationKind::LockedElsewhere => "with these joints there",
                 _ => "the log read so",
             };
             text += &format!(
@@ -53,6 +60,9 @@ impl Observation {
                 percent(e.before),
                 percent(e.after)
             );
+        }
+        if let ObservationKind::LockedElsewhere = self.kind {
+            return format!("{text} {}", locked_keys(&self.locks));
         }
         format!("{text} {}", remedy(self.kind))
     }
@@ -151,6 +161,7 @@ impl Names<'_> {
                 let (share, [_, unit]) = (percent(share), self.units(joints));
                 format!("The effort of {at} is at {limit:.3} {unit} for {share} of the time")
             }
+            K::LockedElsewhere => "Joints that are locked seem to stand elsewhere".to_owned(),
             K::InertiaUnit => self.wide_inertias(),
             K::AnotherRobot => FOREIGN.to_owned(),
         }
@@ -352,7 +363,7 @@ fn remedy(kind: ObservationKind) -> &'static str {
             "Log the whole torque, or add the controller's gravity torque to the effort: without it, nothing at rest tells a mass."
         }
         K::GravityDirection { .. } | K::GravityValue { .. } => {
-            "State how the base is mounted: `gravity` in robot.toml."
+            "State how the base is mounted: `gravity_m_per_s2` in robot.toml."
         }
         K::PositionOffset { .. } => {
             "Check the zero of the encoder against that of the description."
@@ -382,9 +393,34 @@ fn remedy(kind: ObservationKind) -> &'static str {
         K::Overlap { .. } => {
             "Use one of them: what is fitted to the one is not tested by the other."
         }
+        K::LockedElsewhere => "State where they stand: `locked` in robot.toml.",
         K::InertiaUnit => "No logs can be compared with such a model.",
         K::AnotherRobot => "Check that logs and description are of the same robot.",
     }
+}
+
+/// Where locked joints seem to stand.
+fn locks(all: &[OtherLock]) -> String {
+    let each: Vec<String> = all
+        .iter()
+        .map(|lock| {
+            format!("{} at {:.2} rad, not {:.2}", lock.joint, lock.position, lock.described)
+        })
+        .collect();
+    let joints =
+        if all.len() == 1 { "A joint that is locked seems" } else { "Joints that are locked seem" };
+    format!("{joints} to stand elsewhere: {}", each.join("; "))
+}
+
+/// The option that locks joints there.
+fn locked_keys(all: &[OtherLock]) -> String {
+    let each: Vec<String> =
+        all.iter().map(|lock| format!("{}={:.2}", lock.joint, lock.position)).collect();
+    let they = if all.len() == 1 { "it" } else { "they" };
+    format!(
+        "If {they} stood there, --locked {} says so, or `locked` in a robot.toml.",
+        each.join(",")
+    )
 }
 
 fn percent(share: f64) -> String {

@@ -1,3 +1,5 @@
+use std::f64::consts::PI;
+
 /// The numbers that decide whether logs have an error, with their units and reasons.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InspectionThresholds {
@@ -100,6 +102,14 @@ pub struct InspectionThresholds {
     pub heaviest_tool: f64,
     /// Farthest that a tool's centre of mass lies from the origin of the last link (m).
     pub farthest_tool_m: f64,
+    /// Largest step between the positions of a locked joint that are tried (rad).
+    pub lock_step: f64,
+    /// Step at which the search for the position of a locked joint ends (rad).
+    pub lock_precision: f64,
+    /// Gain that a locked joint must make, beside the others; with less it counts as standing where it is described.
+    pub idle_lock: f64,
+    /// Most locked joints that are tried in pairs.
+    pub paired_locks: usize,
     /// Most errors that are reported of one set of logs.
     pub most_readings: usize,
     /// Number of rivals from which on none of them is reported.
@@ -207,6 +217,10 @@ impl Default for InspectionThresholds {
             pooled_share: 0.01,
             heaviest_tool: 1.0,
             farthest_tool_m: 1.0,
+            lock_step: PI / 12.0,
+            lock_precision: 1e-3,
+            idle_lock: 0.1,
+            paired_locks: 4,
             most_readings: 4,
             most_rivals: 6,
             degrees_range: 10.0,

@@ -55,6 +55,7 @@ impl DiagnosisRequest<'_> {
     /// How the robot and the logs were read; of logs that were read in several ways, how the robot was.
     pub fn input(&self) -> InputOptions {
         let joints = self.robot.asked.clone().unwrap_or_default();
+        let locked = self.robot.locked.clone();
         let columns: Vec<_> = self.logs.iter().filter_map(|log| log.columns()).collect();
         let all = columns.iter().map(|columns| cli::options_of_columns(columns));
         let all: Vec<InputOptions> = all.collect();
@@ -63,9 +64,9 @@ impl DiagnosisRequest<'_> {
             |options: &InputOptions| InputOptions { episodes: Vec::new(), ..options.clone() };
         match all.first().map(without) {
             Some(first) if all.iter().all(|options| without(options) == first) => {
-                InputOptions { joints, episodes, ..first }
+                InputOptions { joints, locked, episodes, ..first }
             }
-            _ => InputOptions { joints, ..InputOptions::default() },
+            _ => InputOptions { joints, locked, ..InputOptions::default() },
         }
     }
 
@@ -102,6 +103,10 @@ impl DiagnosisRequest<'_> {
         command.extend(["--robot".to_owned(), robot]);
         if let Some(joints) = &self.robot.asked {
             command.extend(["--joints".to_owned(), joints.join(",")]);
+        }
+        if !self.robot.locked.is_empty() {
+            let each = self.robot.locked.iter().map(|(name, at)| format!("{name}={at}"));
+            command.extend(["--locked".to_owned(), each.collect::<Vec<_>>().join(",")]);
         }
         command.push("--log".to_owned());
         command.extend(files.iter().map(|(path, _)| path.display().to_string()));

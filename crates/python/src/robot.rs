@@ -22,6 +22,8 @@ pub struct PyRobot {
     pub path: PathBuf,
     /// The joints that were asked for.
     pub asked: Option<Vec<String>>,
+    /// Where joints were asked to be locked (rad or m).
+    pub locked: Vec<(String, f64)>,
     dynamics: Dynamics,
 }
 
@@ -29,17 +31,18 @@ impl PyRobot {
     /// The robot of files that were read, with another one in the place of what they describe.
     pub fn with_robot(&self, robot: ::robot::Robot) -> Self {
         let loaded = Loaded { robot, ..(*self.loaded).clone() };
-        Self::new(loaded, self.path.clone(), self.asked.clone())
+        let (asked, locked) = (self.asked.clone(), self.locked.clone());
+        Self { locked, ..Self::new(loaded, self.path.clone(), asked) }
     }
 
     fn new(loaded: Loaded, path: PathBuf, asked: Option<Vec<String>>) -> Self {
         let dynamics = Dynamics::new(&loaded.robot);
-        Self { loaded: Arc::new(loaded), path, asked, dynamics }
+        Self { loaded: Arc::new(loaded), path, asked, locked: Vec::new(), dynamics }
     }
 
     /// The robot of a file, all of its joints.
     pub fn read(path: &Path) -> PyResult<Self> {
-        Self::load(path.to_owned(), None, Vec::new(), false)
+        Self::load(path.to_owned(), None, Vec::new(), Vec::new(), false)
     }
 
     /// Its rigid bodies.
@@ -51,6 +54,7 @@ impl PyRobot {
 /// The joints and meshes that the arguments of Python name.
 fn part(
     joints: Option<&[String]>,
+    locked: Vec<(String, f64)>,
     package: Vec<(String, PathBuf)>,
     allow_outside: bool,
 ) -> PyResult<PartArguments> {
@@ -58,35 +62,37 @@ fn part(
         return Err(PyValueError::new_err("joints: at least one name was expected"));
     }
     let joints = joints.map(<[String]>::to_vec).unwrap_or_default();
-    Ok(PartArguments { joints, package, allow_outside })
+    Ok(PartArguments { joints, locked, package, allow_outside })
 }
 
 #[pymethods]
 impl PyRobot {
     #[new]
-    #[pyo3(signature = (path, joints=None, *, packages=Vec::new(), allow_outside=false))]
+    #[pyo3(signature = (path, joints=None, *, locked=Vec::new(), packages=Vec::new(), allow_outside=false))]
     fn load(
         path: PathBuf,
         joints: Option<Vec<String>>,
+        locked: Vec<(String, f64)>,
         packages: Vec<(String, PathBuf)>,
         allow_outside: bool,
     ) -> PyResult<Self> {
-        let part = part(joints.as_deref(), packages, allow_outside)?;
-        Ok(Self::new(part.load(&path).map_err(exception)?, path, joints))
+        let part = part(joints.as_deref(), locked.clone(), packages, allow_outside)?;
+        Ok(Self { locked, ..Self::new(part.load(&path).map_err(exception)?, path, joints) })
     }
 
     /// Writes a first robot.toml and scenario.toml, as `plumbline robot init` does, and gives its warnings.
     #[staticmethod]
-    #[pyo3(name = "init", signature = (path, folder, joints=None, *, packages=Vec::new(), allow_outside=false, force=false))]
+    #[pyo3(name = "init", signature = (path, folder, joints=None, *, locked=Vec::new(), packages=Vec::new(), allow_outside=false, force=false))]
     fn write_first_files(
         path: PathBuf,
         folder: PathBuf,
         joints: Option<Vec<String>>,
+        locked: Vec<(String, f64)>,
         packages: Vec<(String, PathBuf)>,
         allow_outside: bool,
         force: bool,
     ) -> PyResult<Vec<String>> {
-        let part = part(joints.as_deref(), packages, allow_outside)?;
+        let part = part(joints.as_deref(), locked, packages, allow_outside)?;
         let written =
             cli::init_robot(&RobotInit { file: path, part, out: folder, force, json: false });
         Ok(written.map_err(exception)?.warnings)

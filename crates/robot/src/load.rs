@@ -1,3 +1,4 @@
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use files::{FileError, KEPT_BYTES};
@@ -25,6 +26,8 @@ pub struct LoadOptions {
     /// Names of the joints that move; the others are locked at zero. `None` for every joint that
     /// moves in the files.
     pub joints: Option<Vec<String>>,
+    /// Positions of joints that are locked (rad or m), beside those of the files.
+    pub locked: BTreeMap<String, f64>,
     /// Where meshes are looked for.
     pub packages: Packages,
     /// Which folders meshes may lie in beside packages.
@@ -79,8 +82,8 @@ impl Robot {
         if let Some(file) = &file {
             file.apply(&mut loaded)?;
         }
-        if let Some(joints) = &options.joints {
-            loaded = loaded.keep_joints(&model, joints)?;
+        if options.joints.is_some() || !options.locked.is_empty() {
+            loaded = loaded.keep_joints(&model, options)?;
         }
         loaded.warnings.extend(loaded.looks.find_meshes(
             &urdf_path,
@@ -113,7 +116,7 @@ impl Loaded {
         let whole = &model.robot;
         let locked = part.locks(whole, &model.mimics)?;
         let lumping = Lumping::new(whole, &positions(&locked));
-        let robot = lumping.robot(whole)?;
+        let robot = lumping.robot(whole)?.locked_in(whole, &locked);
         let fixed = model.fixed_to_base.iter().cloned();
         Ok(Self {
             robot_in_urdf: robot.clone(),
@@ -131,10 +134,31 @@ impl Loaded {
         })
     }
 
-    /// The robot with only `joints` moving and its other joints locked at zero.
+    /// The robot with only the joints of `options` moving, and its other joints locked where `options` or the files say, or
+    /// at zero.
     ///
     /// A body that still moves by itself keeps its description; any other is merged into its carrier.
-    fn keep_joints(self, model: &WholeRobot, joints: &[String]) -> Result<Self, RobotError> {
+    fn keep_joints(self, model: &WholeRobot, options: &LoadOptions) -> Result<Self, RobotError> {
+        let locked = &options.locked;
+        for (name, position) in locked {
+            if model.robot.joint_index(name).is_none() {
+                let known: Vec<&str> = model.robot.joint_names().collect();
+                return Err(RobotError::unknown_name("locked joints", "joint", name, &known));
+            }
+            if options.joints.iter().flatten().any(|joint| joint == name) {
+                let place = "joints to keep".to_owned();
+                let hint = "it is among those that are locked".to_owned();
+                let name = name.clone();
+                return Err(RobotError::UnknownName { place, what: "moving joint", name, hint });
+            }
+            if !position.is_finite() {
+                let (thing, quantity) = (format!("joint {name}"), "locked position");
+                return Err(RobotError::NotFinite { thing, quantity, value: *position });
+            }
+        }
+        let others = || self.robot.joint_names().filter(|name| !locked.contains_key(*name));
+        let joints =
+            options.joints.clone().unwrap_or_else(|| others().map(str::to_owned).collect());
         if let Some(name) = joints.iter().find(|name| self.robot.joint_index(name).is_none()) {
             return Err(self.no_joint_to_keep(name));
         }
@@ -142,9 +166,10 @@ impl Loaded {
         let names = || self.robot.joint_names();
         let part = JointSelection {
             joints: Some(names().filter(kept).map(str::to_owned).collect()),
-            locked: self.part.locked.clone(),
+            locked: self.part.locked.clone().into_iter().chain(locked.clone()).collect(),
         };
-        let gone = names().filter(|name| !kept(name)).map(|name| (name.to_owned(), 0.0)).collect();
+        let at = |name: &str| (name.to_owned(), locked.get(name).copied().unwrap_or(0.0));
+        let gone = names().filter(|name| !kept(name)).map(at).collect();
         let lumping = Lumping::new(&self.robot, &gone);
         let [new, old] = [lumping.robot(&self.robot)?, lumping.robot(&self.robot_in_urdf)?];
         let mut smaller = Self::from_urdf(model, part, &self.urdf_path)?;

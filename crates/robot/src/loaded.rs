@@ -4,8 +4,9 @@ use document::KeyPath;
 
 use crate::misfit::Misfit;
 use crate::structure::control::ControlSettings;
+use crate::structure::locked_joint::LockedJoint;
 use crate::structure::looks::Looks;
-use crate::structure::part::{JointSelection, LockedJoint};
+use crate::structure::part::JointSelection;
 use crate::structure::robot::Robot;
 use crate::warning::RobotWarning;
 

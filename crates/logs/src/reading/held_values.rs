@@ -52,7 +52,7 @@ pub(crate) fn take_new_values(
     time: &mut Vec<f64>,
     joints: &mut [Channels],
     extra: &mut BTreeMap<String, Vec<f64>>,
-    efforts: Efforts,
+    efforts: EffortOrigin,
 ) -> Vec<Repair> {
     let mut made = Vec::new();
     if let Some(news) = News::of_rows(time, joints, efforts) {
@@ -74,7 +74,7 @@ pub(crate) fn take_new_values(
 
 /// What the efforts of a run are, for the question whether they may be held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Efforts {
+pub(crate) enum EffortOrigin {
     /// Values of a sensor.
     Measured,
     /// Commands, which act for as long as they are held.
@@ -111,8 +111,8 @@ impl News {
     }
 
     /// The rows of a log that repeats whole rows; `None` where none does.
-    fn of_rows(time: &[f64], joints: &[Channels], efforts: Efforts) -> Option<Self> {
-        let asked = if efforts == Efforts::Computed { &ASKED[..1] } else { &ASKED[..] };
+    fn of_rows(time: &[f64], joints: &[Channels], efforts: EffortOrigin) -> Option<Self> {
+        let asked = if efforts == EffortOrigin::Computed { &ASKED[..1] } else { &ASKED[..] };
         let signals: Vec<&[f64]> = joints
             .iter()
             .flat_map(|joint| asked.iter().filter_map(|channel| joint.get(*channel)))
@@ -159,16 +159,17 @@ impl News {
     fn of_signals(
         time: &[f64],
         joints: &[Channels],
-        efforts: Efforts,
+        efforts: EffortOrigin,
     ) -> Option<(Self, &'static str)> {
         let ways = [
             (Channel::Position, "positions", true),
-            (Channel::Effort, "efforts", efforts == Efforts::Measured),
+            (Channel::Effort, "efforts", efforts == EffortOrigin::Measured),
         ];
         let mut slowest: Option<(Self, &'static str)> = None;
         for (channel, words, _) in ways.into_iter().filter(|way| way.2) {
             let all: Vec<&[f64]> = joints.iter().filter_map(|joint| joint.get(channel)).collect();
-            let held: Vec<Option<Vec<usize>>> = all.iter().map(|x| Signal::of(x).held()).collect();
+            let held: Vec<Option<Vec<usize>>> =
+                all.iter().map(|x| Signal::of(x).find_new_rows()).collect();
             let varied = all.iter().filter(|x| x.iter().any(|value| differ(*value, x[0]))).count();
             let count = held.iter().flatten().count();
             if count == 0 || (count as f64) < MOST_SIGNALS * varied as f64 {
@@ -223,7 +224,7 @@ impl News {
                         interpolate(t, &x, &self.time)
                     }
                     None if is_new => at_rows(x),
-                    None => self.interpolated(time, x),
+                    None => self.resample_signal(time, x),
                 };
                 joint.set(channel, taken);
             }
@@ -234,8 +235,8 @@ impl News {
 
     /// A signal that has no new values at these rows, at their times: between its own values where it is held too, else
     /// between the rows.
-    fn interpolated(&self, time: &[f64], x: &[f64]) -> Vec<f64> {
-        match Signal::of(x).held().map(|rows| with_last(&rows, x.len())) {
+    fn resample_signal(&self, time: &[f64], x: &[f64]) -> Vec<f64> {
+        match Signal::of(x).find_new_rows().map(|rows| with_last(&rows, x.len())) {
             Some(rows) => {
                 let t: Vec<f64> = rows.iter().map(|row| time[*row]).collect();
                 let x: Vec<f64> = rows.iter().map(|row| x[*row]).collect();
@@ -265,7 +266,7 @@ impl<'a> Signal<'a> {
     }
 
     /// The rows at which the signal has a new value, where that comes at a rate slower than that of the rows.
-    fn held(&self) -> Option<Vec<usize>> {
+    fn find_new_rows(&self) -> Option<Vec<usize>> {
         let is_new = |k: &usize| *k == 0 || differ(self.x[*k], self.x[k - 1]);
         let new: Vec<usize> = (0..self.x.len()).filter(is_new).collect();
         if new.len() < FEWEST || new.len() as f64 * FEWEST_ROWS_OF_SIGNAL > self.x.len() as f64 {
@@ -439,7 +440,7 @@ mod tests {
     }
 
     fn take(time: &mut Vec<f64>, joints: &mut [Channels]) -> Vec<Repair> {
-        take_new_values(time, joints, &mut BTreeMap::new(), Efforts::Measured)
+        take_new_values(time, joints, &mut BTreeMap::new(), EffortOrigin::Measured)
     }
 
     /// Largest difference between a log and the signals at its times: of positions and of efforts.
@@ -549,7 +550,7 @@ mod tests {
         let mut time = rows(500.0);
         let mut joints = log(&time, |t, _, k| if k == 0 { t } else { last(t, 0.0) });
         let made =
-            take_new_values(&mut time, &mut joints, &mut BTreeMap::new(), Efforts::Commanded);
+            take_new_values(&mut time, &mut joints, &mut BTreeMap::new(), EffortOrigin::Commanded);
         assert_eq!((made, time.len()), (Vec::new(), 10_000));
     }
 }

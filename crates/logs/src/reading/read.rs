@@ -12,7 +12,7 @@ use crate::{
     error::LogError,
     naming::{column_map::ColumnMap, time_name::other_time},
     reading::{
-        held_values::{Efforts, take_new_values},
+        held_values::{EffortOrigin, take_new_values},
         options::ReadOptions,
         plan::Plan,
         position_loop,
@@ -198,9 +198,9 @@ fn read_open_log(
         .iter()
         .all(|link| link.actuator.torque_source == TorqueSource::Commanded)
     {
-        _ if plan.is_effort_computed => Efforts::Computed,
-        true => Efforts::Commanded,
-        false => Efforts::Measured,
+        _ if plan.is_effort_computed => EffortOrigin::Computed,
+        true => EffortOrigin::Commanded,
+        false => EffortOrigin::Measured,
     };
     mended.extend(take_new_values(&mut time, &mut joints, &mut table.columns, efforts));
     if plan.is_effort_computed {

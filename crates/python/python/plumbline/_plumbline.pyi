@@ -152,6 +152,7 @@ class Robot:
         path: _Path,
         joints: Optional[Sequence[str]] = None,
         *,
+        locked: Sequence[tuple[str, float]] = ...,
         packages: Sequence[tuple[str, _Path]] = ...,
         allow_outside: bool = False,
     ) -> Robot: ...
@@ -161,6 +162,7 @@ class Robot:
         folder: _Path,
         joints: Optional[Sequence[str]] = None,
         *,
+        locked: Sequence[tuple[str, float]] = ...,
         packages: Sequence[tuple[str, _Path]] = ...,
         allow_outside: bool = False,
         force: bool = False,

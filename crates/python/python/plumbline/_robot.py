@@ -34,8 +34,8 @@ class Export:
 class Robot:
     """A robot from a URDF, an MJCF, or a ``robot.toml`` that names one.
 
-    ``joints`` are the names of those that move; the others are locked at zero, or where the
-    ``robot.toml`` says. ``packages`` are folders by the name of the ROS package whose meshes are there;
+    ``joints`` are the names of those that move; the others are locked at zero, or where ``locked`` (rad or m, by the name of
+    the joint) or the ``robot.toml`` says. ``packages`` are folders by the name of the ROS package whose meshes are there;
     with ``allow_outside`` meshes may lie in any folder.
 
     Arrays have one column a joint, in the order of ``robot.joints``; units are rad or m, per s, per s²,
@@ -51,12 +51,14 @@ class Robot:
         path: Union[str, PathLike[str]],
         joints: Optional[Sequence[str]] = None,
         *,
+        locked: Optional[Mapping[str, float]] = None,
         packages: Optional[Mapping[str, Union[str, PathLike[str]]]] = None,
         allow_outside: bool = False,
     ) -> None:
         self._native = _plumbline.Robot(
             _arguments.path("path", path),
             None if joints is None else _arguments.texts("joints", joints),
+            locked=_positions(locked),
             packages=_folders(packages),
             allow_outside=_arguments.flag("allow_outside", allow_outside),
         )
@@ -74,6 +76,7 @@ class Robot:
         folder: Union[str, PathLike[str]],
         joints: Optional[Sequence[str]] = None,
         *,
+        locked: Optional[Mapping[str, float]] = None,
         packages: Optional[Mapping[str, Union[str, PathLike[str]]]] = None,
         allow_outside: bool = False,
         force: bool = False,
@@ -89,6 +92,7 @@ class Robot:
             _arguments.path("path", path),
             where,
             None if joints is None else _arguments.texts("joints", joints),
+            locked=_positions(locked),
             packages=_folders(packages),
             allow_outside=_arguments.flag("allow_outside", allow_outside),
             force=_arguments.flag("force", force),
@@ -154,6 +158,15 @@ def _folders(packages: Optional[Mapping[str, Union[str, PathLike[str]]]]) -> lis
     return [
         (_arguments.text("packages", name), _arguments.path("packages", folder))
         for name, folder in (packages or {}).items()
+    ]
+
+
+def _positions(locked: Optional[Mapping[str, float]]) -> list[tuple[str, float]]:
+    if locked is not None and not isinstance(locked, Mapping):
+        raise TypeError(f"locked: found {type(locked).__name__}, positions by name were expected")
+    return [
+        (_arguments.text("locked", name), _arguments.number("locked", position))
+        for name, position in (locked or {}).items()
     ]
 
 

@@ -10,6 +10,9 @@ use serde::{Deserialize, Serialize};
 pub struct InputOptions {
     /// The joints that move; empty for all that move in the files (`--joints`).
     pub joints: Vec<String>,
+    /// Where locked joints stand (rad or m, `--locked`).
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub locked: Vec<(String, f64)>,
     /// Folders of packages, by name (`--package`).
     pub packages: Vec<(String, PathBuf)>,
     /// Meshes may lie anywhere (`--allow-outside`).

@@ -5,6 +5,7 @@ use document::KeyPath;
 use crate::error::RobotError;
 use crate::misfit::Misfit;
 use crate::range::Range;
+use crate::structure::locked_joint::LockedJoint;
 use crate::structure::robot::Robot;
 
 /// Which joints of a robot move. All others are locked, which fixes the links that they carry.
@@ -14,17 +15,6 @@ pub struct JointSelection {
     pub joints: Option<Vec<String>>,
     /// Positions of locked joints (rad or m); a joint that neither field names is locked at zero.
     pub locked: BTreeMap<String, f64>,
-}
-
-/// A joint that is held at a position.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LockedJoint {
-    /// Name of the joint.
-    pub joint: String,
-    /// The position (rad or m).
-    pub position: f64,
-    /// The joint that it mimics, where that decides its position.
-    pub mimics: Option<String>,
 }
 
 /// `<mimic>`: how a joint follows its master.

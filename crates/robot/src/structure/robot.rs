@@ -1,10 +1,12 @@
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use nalgebra::Vector3;
 
 use crate::error::RobotError;
 use crate::range::{LARGEST, Most};
 use crate::structure::link::Link;
+use crate::structure::locked_joint::LockedJoint;
 
 /// A robot: a tree of moving links on a fixed base.
 ///
@@ -15,6 +17,15 @@ pub struct Robot {
     name: String,
     gravity_in_base: Vector3<f64>,
     links: Vec<Link>,
+    /// Where joints are locked: the robot that they were locked in, and where they stand.
+    unlocked: Option<Arc<Unlocked>>,
+}
+
+/// A robot of which some joints were locked.
+#[derive(Debug, PartialEq)]
+struct Unlocked {
+    whole: Robot,
+    locks: Vec<LockedJoint>,
 }
 
 impl Robot {
@@ -51,7 +62,7 @@ impl Robot {
             }
             finite_link(link)?;
         }
-        Ok(Self { name, gravity_in_base, links })
+        Ok(Self { name, gravity_in_base, links, unlocked: None })
     }
 
     /// Name of the robot.
@@ -87,6 +98,25 @@ impl Robot {
     /// Acceleration of free fall in the base frame (m/s²).
     pub fn gravity_in_base(&self) -> Vector3<f64> {
         self.gravity_in_base
+    }
+
+    /// The joints that are locked, in the order of the URDF.
+    pub fn locks(&self) -> &[LockedJoint] {
+        self.unlocked.as_ref().map_or(&[], |unlocked| &unlocked.locks)
+    }
+
+    /// The robot that the joints were locked in.
+    pub(crate) fn whole(&self) -> Option<&Self> {
+        self.unlocked.as_ref().map(|unlocked| &unlocked.whole)
+    }
+
+    /// The same robot, which remembers the one that its joints were locked in.
+    pub(crate) fn locked_in(mut self, whole: &Self, locks: &[LockedJoint]) -> Self {
+        if !locks.is_empty() {
+            self.unlocked =
+                Some(Arc::new(Unlocked { whole: whole.clone(), locks: locks.to_vec() }));
+        }
+        self
     }
 
     /// The same robot under another gravity (m/s², base frame).
