@@ -15,6 +15,7 @@ mod filter;
 mod growing;
 mod hdf5;
 mod info;
+mod joined;
 mod kinds;
 mod lerobot;
 mod link_lag;

@@ -211,7 +211,7 @@ impl DiagnosedInput {
     /// Where a file lies, seen from the working folder.
     fn present(&self, file: &SourceFile, option: &'static str) -> Result<PathBuf, DesignError> {
         let path = self.folder().join(&file.path);
-        if !path.exists() {
+        if !logs::is_there(&path) {
             return Err(DesignError::Gone { path, diagnosis: self.file.clone(), option });
         }
         Ok(near(&path))

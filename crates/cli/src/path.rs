@@ -36,7 +36,7 @@ fn whole_folder(folder: &Path) -> Option<PathBuf> {
 
 /// A file from the root under its own name, which a link has as well.
 fn whole_file(file: &Path) -> Option<PathBuf> {
-    if !file.exists() {
+    if !logs::is_there(file) {
         return None;
     }
     let above = file.parent().filter(|above| *above != OsStr::new(""));

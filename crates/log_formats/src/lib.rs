@@ -17,6 +17,7 @@ mod content;
 mod counted_rows;
 mod file_format;
 mod formats;
+mod joined_files;
 mod open;
 mod packed;
 
@@ -30,4 +31,5 @@ pub use counted_rows::CountedRows;
 pub use file_format::{Opened, Request};
 pub use formats::lerobot::dataset::LerobotDataset;
 pub use formats::parquet::nesting::check_parquet_nesting;
+pub use joined_files::{files_of_run, is_there, name_of_run, path_of_run};
 pub use open::{column_names, open};

@@ -1,4 +1,5 @@
-use std::{collections::BTreeSet, fs, io, path::Path};
+use std::path::{Path, PathBuf};
+use std::{collections::BTreeSet, fs, io};
 
 use crate::{
     common::{bounds::check_columns, damage::Damage, error::FormatError, unread_kinds::TWICE},
@@ -12,9 +13,11 @@ use crate::{
             episode::Episode,
         },
     },
+    joined_files::{JoinedFiles, RunFile, files_of_run},
 };
 
-/// Opens a file, or the folder of a bag or a dataset. The first bytes of a file identify its kind.
+/// Opens a file, the folder of a bag or a dataset, or several files of one run ([`files_of_run`]). The first bytes of a file
+/// identify its kind.
 ///
 /// `dataset` is the dataset at `path`, where it is open already. Its column of episodes is then not read again.
 ///
@@ -22,6 +25,24 @@ use crate::{
 ///
 /// The reason why the log cannot be read. `damage` says whether a damaged log is refused or cut off.
 pub fn open(
+    path: &Path,
+    request: &Request,
+    dataset: Option<&LerobotDataset>,
+    damage: &mut Damage,
+) -> Result<Box<dyn Opened>, FormatError> {
+    if let Some(files) = files_of_run(path) {
+        let open = |path: PathBuf| -> Result<RunFile, FormatError> {
+            let log = open_one(&path, request, None, damage)?;
+            Ok(RunFile { path, log })
+        };
+        let parts = files.into_iter().map(open).collect::<Result<_, _>>()?;
+        return Ok(Box::new(JoinedFiles { parts }));
+    }
+    open_one(path, request, dataset, damage)
+}
+
+/// Opens a file, or the folder of a bag or a dataset.
+fn open_one(
     path: &Path,
     request: &Request,
     dataset: Option<&LerobotDataset>,

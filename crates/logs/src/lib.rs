@@ -29,7 +29,9 @@ mod writing;
 pub use checks::clocks::compare_clocks;
 pub use error::LogError;
 pub use info::{JointInfo, LogInfo, TimeGap, log_info};
-pub use log_formats::{Excerpt, FormatError, LerobotDataset, check_parquet_nesting};
+pub use log_formats::{
+    Excerpt, FormatError, LerobotDataset, check_parquet_nesting, files_of_run, is_there,
+};
 pub use naming::column_map::ColumnMap;
 pub use naming::map_entry::MappedColumn;
 pub use naming::unit::Unit;

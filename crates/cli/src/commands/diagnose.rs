@@ -39,7 +39,8 @@ const BEGUN: &str = ".plumbline-recording.rrd";
 pub struct Arguments {
     #[command(flatten)]
     robot: RobotArguments,
-    /// Logs (CSV, Parquet, NumPy, MATLAB, HDF5, bags of ROS 2, datasets of LeRobot), one run each, of the same robot
+    /// Logs (CSV, Parquet, NumPy, MATLAB, HDF5, bags of ROS 2, datasets of LeRobot), one run each, of the same robot; a run in
+    /// several files has a + between them, q.mat+tau.mat+t.mat
     #[arg(long = "log", value_name = "FILE", required = true, num_args = 1..)]
     logs: Vec<PathBuf>,
     /// Folder for report.html, recording.rrd, figure.svg, diagnosis.json and extended.toml

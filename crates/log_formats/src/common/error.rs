@@ -100,6 +100,14 @@ pub enum FormatError {
         /// Number of values in the column of time.
         expected: u64,
     },
+    /// A column that several files of a run have is not the same in all.
+    #[error("{}: column {column} has other values than in the files before it, the same were expected", path.display())]
+    OtherColumn {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        column: String,
+    },
     /// A bag has no joint states on a topic.
     #[error("{}: there are no joint states{}; it has {}",
         path.display(), topic.as_ref().map(|t| format!(" on the topic {t}")).unwrap_or_default(), few(found))]

@@ -80,10 +80,24 @@ impl Layout for RowByRow {
     }
 
     fn sort_by_column(&self, numbers: Vec<f64>, [rows, columns]: [u64; 2]) -> Vec<f64> {
-        if rows == 1 || columns == 1 {
+        // An array without numbers may have any number of columns.
+        if rows == 1 || columns == 1 || numbers.is_empty() {
             return numbers;
         }
         let width = columns as usize;
         (0..width).flat_map(|k| numbers.iter().skip(k).step_by(width.max(1)).copied()).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_row_by_row_are_sorted_by_column_and_none_take_no_time() {
+        let layout = RowByRow { header_bytes: 0 };
+        let numbers = vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+        assert_eq!(layout.sort_by_column(numbers, [2, 3]), [1.0, 4.0, 2.0, 5.0, 3.0, 6.0]);
+        assert!(layout.sort_by_column(Vec::new(), [0, 1 << 60]).is_empty());
     }
 }

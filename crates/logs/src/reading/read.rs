@@ -1,7 +1,9 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use log_formats::{Columns, CountedRows, Damage, FormatError, Opened, column_names, open};
+use log_formats::{
+    Columns, CountedRows, Damage, FormatError, Opened, column_names, name_of_run, open, path_of_run,
+};
 use robot::{Robot, TorqueSource};
 
 use crate::{
@@ -50,6 +52,9 @@ use crate::{
 ///
 /// Time is the column `time` (s), or else the only one with another name of time, such as `Time`, `t` or `timestamp`.
 /// Dates are counted in seconds from the first one. A file without time has the time of its rows by the map's `rate_hz`.
+///
+/// A path such as `run/q.mat+tau.mat+t.mat` is one run in several files that lie beside the first, row by row. Columns of a
+/// file without names are called by the name of the file, `tau[0]` and so on, and what several files have must be alike in all.
 ///
 /// In a LeRobot dataset, a folder with `meta/info.json`, each episode is a run. Its lists are the columns
 /// `observation.state[0]` and so on, and also `observation.state[elbow]` where `meta/info.json` names the entries.
@@ -209,15 +214,14 @@ fn read_open_log(
         }
         mended.push(Repair::FromPositionLoop);
     }
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let name = match options.episode {
-        Some(episode) => format!("{stem}_episode_{episode}"),
-        None => stem.into_owned(),
+        Some(episode) => format!("{}_episode_{episode}", name_of_run(path)),
+        None => name_of_run(path),
     };
     let (sha256, is_torn) = (file.sha256()?, file.is_torn());
     Ok(Run {
         name,
-        source: path.to_owned(),
+        source: path_of_run(path),
         sha256,
         is_torn,
         mended,
