@@ -68,7 +68,13 @@ struct Postures<'a> {
 
 impl<'a> Postures<'a> {
     fn new(judge: &'a Judge<'a>, as_is: &'a ReadingFit) -> Self {
-        let own = judge.robot.locks().iter().filter(|lock| lock.mimics.is_none());
+        // A joint of another limb turns nothing that moves.
+        let turns = |lock: &&robot::LockedJoint| {
+            let elsewhere = BTreeMap::from([(lock.joint.clone(), lock.position + 1.0)]);
+            let other = judge.robot.locked_at(&elsewhere);
+            other.is_some_and(|other| other.links() != judge.robot.links())
+        };
+        let own = judge.robot.locks().iter().filter(|lock| lock.mimics.is_none()).filter(turns);
         let tried = |lock: &robot::LockedJoint| {
             let joint = &judge.robot.locked_link(&lock.joint)?.joint;
             let limits = joint.limits.position;

@@ -39,15 +39,15 @@ const MOST_SIGNALS: f64 = 0.5;
 /// A log is often written at the rate of its fastest message, and every other message is repeated until the next one
 /// comes. The staircase that this makes is no motion: its steps are accelerations that nothing made.
 ///
-/// - **Rows that repeat all** positions and efforts are left out, or interpolated where they are few. A joint moves on, by [`SURE_STEPS`] steps of its
-///   encoder or more and in the same direction, before and after such a row. A longer stretch without news is a rest,
-///   of which rows at the usual interval are kept, or a freeze, which is left to the inspection.
+/// - **Rows that repeat all** positions and efforts are left out, or interpolated where they are few. A joint moves on, by
+///   [`SURE_STEPS`] steps of its encoder or more and in the same direction, before and after such a row. A longer stretch
+///   without news is a rest, of which rows at the usual interval are kept, or a freeze, which is left to the inspection.
 /// - **Signals of a slower message** are known at a rate of their own. All others are interpolated to it, by the same cubic as
 ///   rows with jitter, where half of the positions or half of the efforts are such.
 ///
 /// Values that come at an even rate get an even clock where their rows are late by less than a row.
 ///
-/// A commanded effort that alone is held is the command as it acts, and stays (`efforts` is false).
+/// A commanded effort that alone is held is the command as it acts, and stays.
 pub(crate) fn take_new_values(
     time: &mut Vec<f64>,
     joints: &mut [Channels],
@@ -217,7 +217,8 @@ impl News {
                     Channel::Effort => is_new[1],
                     _ => true,
                 };
-                let Some(x) = joint.get(channel) else { continue };
+                // Efforts that are computed later are not there yet.
+                let Some(x) = joint.get(channel).filter(|x| !x.is_empty()) else { continue };
                 let taken = match &self.known {
                     Some((rows, t)) => {
                         let x: Vec<f64> = rows.iter().map(|row| x[*row]).collect();
@@ -542,6 +543,21 @@ mod tests {
         assert!(matches!(made[..], [Repair::Repeats { rate_hz: Some(_), .. }]), "{made:?}");
         assert!((time.len() as f64 - 2000.0).abs() < 30.0, "{}", time.len());
         assert!(time.windows(2).all(|t| (t[1] - t[0] - 0.01).abs() < 1e-3));
+    }
+
+    /// A log of goals and positions alone, whose efforts are not computed yet.
+    #[test]
+    fn logs_without_efforts_are_read_at_the_rate_of_their_positions() {
+        let mut time = rows(500.0);
+        let mut joints = log(&time, |t, _, _| last(t, 0.0));
+        joints.iter_mut().for_each(|joint| {
+            joint.desired_position = Some(joint.position.clone());
+            joint.effort.clear();
+        });
+        let made =
+            take_new_values(&mut time, &mut joints, &mut BTreeMap::new(), EffortOrigin::Computed);
+        assert_eq!((made.len(), joints[0].effort.len()), (1, 0));
+        assert_eq!(joints[1].desired_position.as_ref().map(Vec::len), Some(time.len()));
     }
 
     /// A command acts for as long as it is held.
