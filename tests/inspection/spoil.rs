@@ -47,7 +47,7 @@ const fn sometimes(spoil: Spoil) -> Spoil {
 }
 
 /// All ways.
-pub const SPOILS: [Spoil; 29] = [
+pub const SPOILS: [Spoil; 30] = [
     of("effort sign, a joint", 1, |c, [a, _]| efforts(c, a, |e| -e), |k| k == K::EffortSign),
     of("effort sign, all", 0, |c, _| all_efforts(c, |_, e| -e), |k| k == K::EffortSign),
     of("position sign, a joint", 1, |c, [a, _]| scale(c, a, -1.0, -1.0), |k| k == K::PositionSign),
@@ -56,6 +56,15 @@ pub const SPOILS: [Spoil; 29] = [
         1,
         |c, [a, _]| scale(c, a, -1.0, 1.0),
         |k| k == K::PositionSign,
+    ),
+    of(
+        "axis turned",
+        1,
+        |c, [a, _]| {
+            scale(c, a, -1.0, -1.0);
+            efforts(c, a, |e| -e);
+        },
+        |k| k == K::AxisSign,
     ),
     of("joints exchanged", 2, exchange, |k| k == K::JointsExchanged),
     of("efforts exchanged", 2, exchange_efforts, |k| k == K::EffortsExchanged),

@@ -15,6 +15,8 @@ pub(crate) enum LogReading {
     EffortSign(Option<usize>),
     /// The position of a joint, or of all of them, has the other sign.
     PositionSign(Option<usize>),
+    /// Position and effort of a joint are counted the other way round than its axis is described.
+    AxisSign(usize),
     /// The logged position of a joint is so much more than the true one (rad).
     Offset(usize, f64),
     /// The position of a joint is counted together with that of the joint before it.
@@ -61,6 +63,12 @@ impl LogReading {
             }
             Self::PositionSign(joint) => {
                 read.motion.iter_mut().for_each(|signal| scale(signal, *joint, -1.0));
+            }
+            Self::AxisSign(joint) => {
+                let joint = Some(*joint);
+                read.motion.iter_mut().for_each(|signal| scale(signal, joint, -1.0));
+                scale(&mut read.effort, joint, -1.0);
+                scale(&mut read.goal_rate, joint, -1.0);
             }
             Self::Degrees(joint) => {
                 read.motion.iter_mut().for_each(|signal| scale(signal, *joint, PI / 180.0));
@@ -120,7 +128,7 @@ impl LogReading {
 
     /// Whether it turns a sign.
     pub fn is_sign(&self) -> bool {
-        matches!(self, Self::EffortSign(_) | Self::PositionSign(_))
+        matches!(self, Self::EffortSign(_) | Self::PositionSign(_) | Self::AxisSign(_))
     }
 
     /// Whether it concerns every joint; more than one of them must confirm it then.
@@ -149,6 +157,7 @@ impl LogReading {
             Self::AsIs => return None,
             Self::EffortSign(j) => (K::EffortSign, own(j)),
             Self::PositionSign(j) => (K::PositionSign, own(j)),
+            Self::AxisSign(j) => (K::AxisSign, vec![*j]),
             Self::Offset(j, offset) => (K::PositionOffset { offset: *offset }, vec![*j]),
             Self::CountedTogether(counted) => (K::CountedTogether(*counted), vec![counted.joint]),
             Self::Exchanged(a, b) => (K::JointsExchanged, vec![*a, *b]),

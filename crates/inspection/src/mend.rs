@@ -73,6 +73,10 @@ impl Observation {
         match (self.kind, self.joints.as_slice()) {
             (K::EffortSign, joints) => at(runs, joints, |joint| scale_effort(joint, -1.0)),
             (K::PositionSign, joints) => at(runs, joints, |joint| scale_motion(joint, -1.0)),
+            (K::AxisSign, joints) => at(runs, joints, |joint| {
+                scale_motion(joint, -1.0);
+                scale_effort(joint, -1.0);
+            }),
             (K::Degrees, joints) => at(runs, joints, |joint| scale_motion(joint, PI / 180.0)),
             (K::EffortUnit { factor: middle }, _) => {
                 for unit in &self.units {

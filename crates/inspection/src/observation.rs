@@ -168,6 +168,8 @@ pub enum ObservationKind {
     EffortSign,
     /// The position of the joints has the other sign, its velocity too.
     PositionSign,
+    /// The joints are counted the other way round than their axes are described: position and effort have the other sign.
+    AxisSign,
     /// The velocity column of the joints has the other sign than their position.
     VelocitySign,
     /// Two joints have each other's position and effort.

@@ -145,6 +145,7 @@ fn candidates(judge: &Judge, as_is: &ReadingFit) -> Vec<LogReading> {
     }
     for (j, link) in links.iter().enumerate() {
         all.extend([LogReading::EffortSign(Some(j)), LogReading::PositionSign(Some(j))]);
+        all.push(LogReading::AxisSign(j));
         if link.joint.kind.is_rotation() {
             all.extend([FRAC_PI_2, -FRAC_PI_2, PI].map(|offset| LogReading::Offset(j, offset)));
             if span(judge, j) > t.degrees_range {

@@ -115,6 +115,9 @@ impl Names<'_> {
             | K::TurnJump { .. } => self.moment(kind, joints),
             K::EffortSign => format!("The effort of {at} seems to have the other sign"),
             K::PositionSign => format!("The position of {at} seems to have the other sign"),
+            K::AxisSign => format!(
+                "The axis of {at} seems to be turned: position and effort have the other sign"
+            ),
             K::VelocitySign => format!(
                 "The velocity column of {at} has the other sign than the derivative of the position"
             ),
@@ -349,6 +352,7 @@ fn remedy(kind: ObservationKind) -> &'static str {
         K::PositionSign => {
             "Turn the sign of position and velocity, or the joint's axis in the description."
         }
+        K::AxisSign => "Turn the joint's axis in the description, or both signs in the column map.",
         K::VelocitySign => "The velocity column is not used; turn its sign.",
         K::JointsExchanged | K::EffortsExchanged => "Put the columns under the right names.",
         K::EffortUnit { .. } | K::UnknownUnit => "State the unit in the column map.",
