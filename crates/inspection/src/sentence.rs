@@ -113,14 +113,9 @@ impl Names<'_> {
             | K::Spikes { .. }
             | K::FrequentSpikes { .. }
             | K::TurnJump { .. } => self.moment(kind, joints),
-            K::EffortSign => format!("The effort of {at} seems to have the other sign"),
-            K::PositionSign => format!("The position of {at} seems to have the other sign"),
-            K::AxisSign => format!(
-                "The axis of {at} seems to be turned: position and effort have the other sign"
-            ),
-            K::VelocitySign => format!(
-                "The velocity column of {at} has the other sign than the derivative of the position"
-            ),
+            K::EffortSign | K::PositionSign | K::AxisSign | K::VelocitySign => {
+                other_sign(kind, &at)
+            }
             K::JointsExchanged => format!("The columns of {at} seem to be exchanged"),
             K::EffortsExchanged => format!("The efforts of {at} seem to be exchanged"),
             K::EffortUnit { factor } => {
@@ -400,6 +395,20 @@ fn remedy(kind: ObservationKind) -> &'static str {
         K::LockedElsewhere => "State where they stand: `locked` in robot.toml.",
         K::InertiaUnit => "No logs can be compared with such a model.",
         K::AnotherRobot => "Check that logs and description are of the same robot.",
+    }
+}
+
+/// What has the other sign.
+fn other_sign(kind: ObservationKind, at: &str) -> String {
+    match kind {
+        ObservationKind::EffortSign => format!("The effort of {at} seems to have the other sign"),
+        ObservationKind::AxisSign => {
+            format!("The axis of {at} seems to be turned: position and effort have the other sign")
+        }
+        ObservationKind::VelocitySign => format!(
+            "The velocity column of {at} has the other sign than the derivative of the position"
+        ),
+        _ => format!("The position of {at} seems to have the other sign"),
     }
 }
 
