@@ -28,6 +28,8 @@ const MOST_LISTED: usize = 100;
 
 /// Number of items of [`columns`] that are printed.
 const MOST: usize = 16;
+/// Most characters of the names together, but of the first.
+const LONGEST: usize = 450;
 
 /// `; its columns are t, q[0] to q[5], tau`, numbered ones by the first and the last, or nothing without a name.
 pub fn columns(names: &[String]) -> String {
@@ -35,8 +37,17 @@ pub fn columns(names: &[String]) -> String {
         return String::new();
     }
     let items = numbered_together(names);
-    let more = items.len().saturating_sub(MOST);
-    let first: Vec<String> = items[..items.len() - more].iter().map(|item| quote(item)).collect();
+    let mut length = 0;
+    let fits = |name: &String| {
+        length += name.chars().count();
+        length <= LONGEST
+    };
+    let mut first: Vec<String> =
+        items.iter().take(MOST).map(|item| quote(item)).take_while(fits).collect();
+    if first.is_empty() {
+        first.extend(items.first().map(|item| quote(item)));
+    }
+    let more = items.len() - first.len();
     let rest = if more == 0 { String::new() } else { format!(" and {more} more") };
     format!("; its columns are {}{rest}", first.join(", "))
 }
@@ -85,6 +96,11 @@ mod tests {
         let many: Vec<String> = (0..20).map(|k| format!("{k}\nx{}", k * k)).collect();
         let told = columns(&many);
         assert!(told.ends_with(" and 4 more") && !told.contains('\n'), "{told}");
+        let long = ["a", "b", "c", "d", "e", "f", "g", "h"].map(|name| name.repeat(1000));
+        let told = columns(&long);
+        assert!(told.chars().count() < 500 && told.ends_with(" more"), "{told}");
+        let one = columns(&long[..1]);
+        assert!(one.starts_with("; its columns are aaa") && one.chars().count() < 500, "{one}");
     }
 
     #[test]
