@@ -107,6 +107,25 @@ fn robot_check_names_an_impossible_inertia_and_exits_with_one() {
 }
 
 #[test]
+fn locked_joints_stand_where_the_option_says() {
+    let folder = arm::folder(Gap::None);
+    let check =
+        |option: &str| run(folder.path(), &["robot", "check", "arm.urdf", "--locked", option]);
+    let good = check("elbow=-0.5");
+    assert_eq!((good.code, good.err.as_str()), (0, ""));
+    assert!(good.out.contains("locked: elbow at -0.5"), "{}", good.out);
+    for (option, code, expected) in [
+        ("elbow", 2, "a joint and its position were expected, such as joint_3=1.2"),
+        ("elbow=inf", 2, "a joint and its position were expected"),
+        ("elbw=1", 3, "did you mean elbow?"),
+    ] {
+        let bad = check(option);
+        assert_eq!(bad.code, code, "{option}: {}", bad.err);
+        assert!(bad.err.contains(expected), "{option}: {}", bad.err);
+    }
+}
+
+#[test]
 fn robot_check_judges_moving_bodies() {
     let folder = arm::folder(Gap::None);
     let camera = r#"<link name="camera"><inertial><mass value="0.01"/>

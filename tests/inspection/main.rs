@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may stop at the first surprise")]
 
 mod arms_with_friction;
+mod axis_turned;
 mod counted_together;
 mod effort_units;
 mod locked_elsewhere;

@@ -202,6 +202,8 @@ class Arguments(unittest.TestCase):
             ("joints", lambda: plumbline.Log(*arrays, joints="abcdefg")),
             ("joints", lambda: plumbline.Log(*arrays, joints=[1] * JOINTS)),
             ("joints", lambda: plumbline.Robot(WAM, joints="j1_base_yaw")),
+            ("locked", lambda: plumbline.Robot(WAM, locked=["j1_base_yaw"])),
+            ("locked", lambda: plumbline.Robot(WAM, locked={"j1_base_yaw": "here"})),
             ("packages", lambda: plumbline.Robot(WAM, packages=3)),
             ("packages", lambda: plumbline.Robot(WAM, packages={"arm": closed})),
             ("allow_outside", lambda: plumbline.Robot(WAM, allow_outside=1)),

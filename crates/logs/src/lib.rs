@@ -31,6 +31,7 @@ pub use error::LogError;
 pub use info::{JointInfo, LogInfo, TimeGap, log_info};
 pub use log_formats::{
     Excerpt, FormatError, LerobotDataset, check_parquet_nesting, files_of_run, is_there,
+    name_of_run,
 };
 pub use naming::column_map::ColumnMap;
 pub use naming::map_entry::MappedColumn;

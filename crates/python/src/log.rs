@@ -279,11 +279,12 @@ impl PyLog {
                 return Err(PyValueError::new_err(message));
             }
         }
-        if !path.exists() {
+        if !path.exists() && ::logs::files_of_run(&path).is_none() {
             return Err(exception(LogError::from(FormatError::Missing { path })));
         }
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let (effort, excerpt) = (Some(effort.to_owned()), ExcerptArguments { from_s, to_s });
+        let name = ::logs::name_of_run(&path);
+        let effort = (effort != DEFAULT_EFFORT).then(|| effort.to_owned());
+        let excerpt = ExcerptArguments { from_s, to_s };
         let episodes = episode.map(|episode| episode..=episode).into_iter().collect();
         let columns = ColumnArguments { map, effort, topic, episodes, until_damage, excerpt };
         Ok(Self { name, source: Source::File(columns, path) })

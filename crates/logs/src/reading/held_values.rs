@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use crate::checks::impossible::quantile;
+use crate::reading::even_rows::{EvenRows, fill, rate};
 use crate::runs::repair::Repair;
 use crate::runs::run::{Channel, Channels, median};
 use crate::signals::clock::interpolate;
@@ -16,20 +18,9 @@ const FEWEST: usize = 20;
 const LEAST_AGE_S: f64 = 2e-4;
 /// Longest repeat, in those that nine of ten do not exceed. A longer one is a joint at rest, or a log that stood still.
 const LONGEST: f64 = 3.0;
-/// Share of the intervals between new values that must be alike, where a signal counts as held at a rate.
-const REGULAR: f64 = 0.9;
-/// Share of an interval by which it may differ from the mean one. A row is allowed in any case, since a message comes
-/// between two rows.
-const ALIKE: f64 = 0.15;
-/// Longest mean interval (rows) in which a row is so much that all rows must lie on one line of even messages.
-const SHORT: f64 = 4.0;
-/// Rows by which messages at an even rate are late at most: one, and rounding.
-const LATE: f64 = 1.1;
 /// Rows for each value, at an uneven rate, below which values are interpolated to the rows between: their clock stays even.
 const FEW_ROWS: f64 = 2.5;
-/// Fewest rows of a mean interval of messages at an even rate that are repeated.
-const FEWEST_ROWS: f64 = 1.1;
-/// The same of a signal that is held at a rate of its own, while others are new in every row.
+/// Fewest rows of a mean interval of a signal that is held at a rate of its own, while others are new in every row.
 const FEWEST_ROWS_OF_SIGNAL: f64 = 1.4;
 /// Share of the signals of a kind that must be held, so that all signals are taken at their rate.
 const MOST_SIGNALS: f64 = 0.5;
@@ -83,12 +74,6 @@ pub(crate) enum EffortOrigin {
     Computed,
 }
 
-/// Rate of rows (Hz), by the median of their steps.
-fn rate(time: &[f64]) -> f64 {
-    let steps: Vec<f64> = time.windows(2).map(|t| t[1] - t[0]).collect();
-    1.0 / median(&steps)
-}
-
 /// Rows at which values are new, and their times.
 struct News {
     rows: Vec<usize>,
@@ -126,18 +111,18 @@ impl News {
             joints.iter().map(|joint| Signal::of(&joint.position)).collect();
         let moves = |rows: &[usize]| positions.iter().any(|signal| signal.moves_on(rows));
         // The arm moves on where a row repeats; rows[1] .. rows[2] is the interval with repeats.
-        let repeats: Vec<usize> = new
+        let repeats: Vec<f64> = new
             .windows(3)
             .filter(|rows| rows[2] - rows[1] > 1 && moves(rows))
-            .map(|rows| rows[2] - rows[1])
+            .map(|rows| (rows[2] - rows[1]) as f64)
             .collect();
         // In an interval of n rows values are 0, 1, .. n - 1 rows old.
-        let ages: f64 = repeats.iter().map(|rows| 0.5 * (rows * (rows - 1)) as f64).sum();
+        let ages: f64 = repeats.iter().map(|rows| 0.5 * rows * (rows - 1.0)).sum();
         if repeats.len() < FEWEST || ages / time.len() as f64 / rate(time) < LEAST_AGE_S {
             return None;
         }
-        let longest = (LONGEST * quantile(&repeats, 0.9)) as usize;
-        let even = Even::of(&new[1..], longest);
+        let longest = (LONGEST * quantile(repeats, 0.9)) as usize;
+        let even = EvenRows::of(&new[1..], longest);
         // The first value may have come before the first row.
         let first = usize::from(even.is_some());
         let rows = fill(&new[first..], time.len(), longest, even.as_ref());
@@ -176,9 +161,8 @@ impl News {
                 continue;
             }
             let Some(rows) = held.iter().flatten().min_by_key(|rows| rows.len()) else { continue };
-            let intervals: Vec<usize> = rows.windows(2).map(|rows| rows[1] - rows[0]).collect();
-            let longest = (LONGEST * quantile(&intervals, 0.5)) as usize;
-            let Some(even) = Even::of(&rows[1..], longest) else { continue };
+            let longest = (LONGEST * middle_interval(rows)) as usize;
+            let Some(even) = EvenRows::of(&rows[1..], longest) else { continue };
             let rows = fill(&rows[1..], time.len(), longest, Some(&even));
             if slowest.as_ref().is_some_and(|(slowest, _)| slowest.rows.len() <= rows.len()) {
                 continue;
@@ -273,107 +257,12 @@ impl<'a> Signal<'a> {
         if new.len() < FEWEST || new.len() as f64 * FEWEST_ROWS_OF_SIGNAL > self.x.len() as f64 {
             return None;
         }
-        let intervals: Vec<usize> = new.windows(2).map(|rows| rows[1] - rows[0]).collect();
-        let longest = (LONGEST * quantile(&intervals, 0.5)) as usize;
-        Even::of(&new[1..], longest)?;
+        let longest = (LONGEST * middle_interval(&new)) as usize;
+        EvenRows::of(&new[1..], longest)?;
         let jumps: Vec<f64> =
             new.windows(2).map(|rows| (self.x[rows[1]] - self.x[rows[0]]).abs()).collect();
         (median(&jumps) >= SURE_STEPS * self.step).then_some(new)
     }
-}
-
-/// New values at an even rate.
-struct Even {
-    /// Mean number of rows between two of them.
-    rows: f64,
-}
-
-impl Even {
-    /// `None` where fewer than nine of ten intervals are alike, or two or three of them in one where a message was lost.
-    fn of(new: &[usize], longest: usize) -> Option<Self> {
-        let intervals = new.windows(2).map(|rows| rows[1] - rows[0]);
-        let short: Vec<f64> =
-            intervals.filter(|rows| *rows <= longest).map(|rows| rows as f64).collect();
-        if short.len() < FEWEST {
-            return None;
-        }
-        let middle = median(&short);
-        // With the other whole number beside a mean that is none, without two intervals in one.
-        let usual = short.iter().filter(|rows| **rows < 1.5 * middle + 1.0);
-        let (sum, count) = usual.fold((0.0, 0.0), |(sum, n), rows| (sum + rows, n + 1.0));
-        let even = Self { rows: sum / count };
-        let is_alike = |found: &&f64| {
-            let off = *found - (*found / even.rows).round().max(1.0) * even.rows;
-            off.abs() < 1.0 - 1e-9 || off.abs() <= ALIKE * even.rows
-        };
-        let alike = short.iter().filter(is_alike).count();
-        let is_even = even.rows >= FEWEST_ROWS
-            && alike as f64 >= REGULAR * short.len() as f64
-            && (even.rows > SHORT
-                || even.line(|row| row as f64, new).is_some_and(|line| line.late <= LATE));
-        is_even.then_some(even)
-    }
-
-    /// Times of rows (s) and their mean interval (s), of values at an even rate: the latest line that is not later than
-    /// any row. `None` where rows are later than a row.
-    fn clock(&self, time: &[f64], rows: &[usize]) -> Option<(Vec<f64>, f64)> {
-        let line = self.line(|row| time[row], rows)?;
-        (line.late <= LATE / rate(time)).then_some((line.values, line.step))
-    }
-
-    /// The latest line through the rows that is not later than any.
-    ///
-    /// ```text
-    /// t_k = a + h n_k,   n_k = whole number of intervals up to row k
-    /// h by least squares,   a the largest for which no t_k is later than its row
-    /// ```
-    fn line(&self, time: impl Fn(usize) -> f64, rows: &[usize]) -> Option<Line> {
-        let mut number = Vec::with_capacity(rows.len());
-        let mut now = 0.0;
-        for (k, row) in rows.iter().enumerate() {
-            let before = rows[k.saturating_sub(1)];
-            now += if k == 0 { 0.0 } else { ((row - before) as f64 / self.rows).round().max(1.0) };
-            number.push(now);
-        }
-        let n = rows.len() as f64;
-        let mean_n = number.iter().sum::<f64>() / n;
-        let mean_t = rows.iter().map(|row| time(*row)).sum::<f64>() / n;
-        let (mut nn, mut nt) = (0.0, 0.0);
-        for (number, row) in number.iter().zip(rows) {
-            nn += (number - mean_n).powi(2);
-            nt += (number - mean_n) * (time(*row) - mean_t);
-        }
-        let step = nt / nn;
-        let late = || number.iter().zip(rows).map(|(n, row)| time(*row) - step * n);
-        let (least, most) = (late().reduce(f64::min)?, late().reduce(f64::max)?);
-        let values = number.iter().map(|n| least + step * n).collect();
-        (step > 0.0).then_some(Line { values, step, late: most - least })
-    }
-}
-
-/// An even clock: values, their step, and how late the latest row is.
-struct Line {
-    values: Vec<f64>,
-    step: f64,
-    late: f64,
-}
-
-/// The rows of new values, and in stretches without news rows at the usual interval, or every row where there is none.
-fn fill(new: &[usize], rows: usize, longest: usize, even: Option<&Even>) -> Vec<usize> {
-    let mut all = Vec::with_capacity(new.len());
-    let ends = new.iter().skip(1).copied().chain([rows]);
-    for (&start, end) in new.iter().zip(ends) {
-        all.push(start);
-        if end - start <= longest && end < rows {
-            continue;
-        }
-        let step = even.map_or(1.0, |even| even.rows);
-        let between = (1..).map(|k| start + (f64::from(k) * step).round() as usize);
-        all.extend(
-            between.take_while(|row| (*row as f64) < end as f64 - 0.5 * step.max(1.0) + 0.25),
-        );
-    }
-    all
 }
 
 /// The rows of new values with the last row, so that an interpolation reaches it.
@@ -392,16 +281,14 @@ fn is_constant_between(x: &[f64], rows: &[usize]) -> bool {
     })
 }
 
-fn differ(a: f64, b: f64) -> bool {
-    a.to_bits() != b.to_bits()
+/// Median interval between rows.
+fn middle_interval(rows: &[usize]) -> f64 {
+    let intervals: Vec<f64> = rows.windows(2).map(|rows| (rows[1] - rows[0]) as f64).collect();
+    median(&intervals)
 }
 
-/// The value that a share of all do not exceed.
-fn quantile(all: &[usize], share: f64) -> f64 {
-    let mut sorted = all.to_vec();
-    sorted.sort_unstable();
-    let at = (share * sorted.len() as f64) as usize;
-    sorted.get(at.min(sorted.len().saturating_sub(1))).map_or(0.0, |rows| *rows as f64)
+fn differ(a: f64, b: f64) -> bool {
+    a.to_bits() != b.to_bits()
 }
 
 #[cfg(test)]

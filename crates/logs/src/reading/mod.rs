@@ -1,5 +1,6 @@
 //! Reads a file into a checked run.
 
+pub(crate) mod even_rows;
 pub(crate) mod finder;
 pub(crate) mod held_values;
 pub(crate) mod options;
