@@ -6,7 +6,7 @@
     tests/benches/entrants/sysid.py SET ANSWERS TRUTH        # those alone that an oracle sees to be wrong
 
 Free are damping, frictionloss and armature of every joint and the mass of every body, from the description on, by
-least squares over at most 8 windows of 0.2 s that start at measured states; bounds are twice the torque of the joint, and
+least squares over at most 24 windows of 0.2 s that start at measured states; bounds are twice the torque of the joint, and
 0.3 to 3 of a mass. What the drive of a joint has that stands in all logs stays as described. A parameter is named where its
 interval excludes the described value and what it changes is 2 % of the joint's effort, or 5 % of the mass.
 """
@@ -24,7 +24,7 @@ except ImportError as lack:
 
 from bench_set import Log, answer_all, mjcf_torque
 
-WINDOW_S, MOST_WINDOWS, CUTOFF_HZ = 0.2, 8, 20.0
+WINDOW_S, MOST_WINDOWS, CUTOFF_HZ = 0.2, 24, 20.0
 KINDS = {"damping": ("FR01", "viscous"), "frictionloss": ("FR02", "level"), "armature": ("IN03", "inertia")}
 MASS = ("IN02", "mass")
 STANDS = 1e-3  # Speed (rad/s or m/s, root mean square) of a joint whose drive no log shows.
