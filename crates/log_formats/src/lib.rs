@@ -26,7 +26,7 @@ pub use common::damage::Damage;
 pub use common::error::FormatError;
 pub use common::excerpt::{Excerpt, ExcerptFilter, TimeScale};
 pub use common::table::{Needed, Table};
-pub use common::words::{columns, list, suggestion};
+pub use common::words::{columns, list, quote, suggestion};
 pub use counted_rows::CountedRows;
 pub use file_format::{Opened, Request};
 pub use formats::lerobot::dataset::LerobotDataset;

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use crate::common::{
     allowance::Exceeded,
     unread_kinds::UnreadKind,
-    words::{columns, list, suggestion},
+    words::{columns, list, quote, suggestion},
 };
 
 /// Why a file cannot be read.
@@ -87,7 +87,7 @@ pub enum FormatError {
         allowed: u64,
     },
     /// A column does not have the length of the column of time.
-    #[error("{}: column {column} has {found} values, {expected} were expected as in {time}", path.display())]
+    #[error("{}: column {column} has {found} values, {expected} were expected as in {time}", path.display(), column = quote(column))]
     ColumnLength {
         /// The file.
         path: PathBuf,
@@ -101,7 +101,7 @@ pub enum FormatError {
         expected: u64,
     },
     /// A column that several files of a run have is not the same in all.
-    #[error("{}: column {column} has other values than in the files before it, the same were expected", path.display())]
+    #[error("{}: column {column} has other values than in the files before it, the same were expected", path.display(), column = quote(column))]
     OtherColumn {
         /// The file.
         path: PathBuf,
@@ -151,7 +151,7 @@ pub enum FormatError {
         reason: String,
     },
     /// A message of a bag holds only some of the robot's joints.
-    #[error("{}: message {message} of {topic} holds joints of the robot, but no {column}", path.display())]
+    #[error("{}: message {message} of {topic} holds joints of the robot, but no {column}", path.display(), column = quote(column))]
     NotInMessage {
         /// The file.
         path: PathBuf,
@@ -163,7 +163,7 @@ pub enum FormatError {
         column: String,
     },
     /// Two columns have the same name.
-    #[error("{}: two columns are called {column}, names must be unique", path.display())]
+    #[error("{}: two columns are called {column}, names must be unique", path.display(), column = quote(column))]
     DuplicateColumn {
         /// The file.
         path: PathBuf,
@@ -171,7 +171,7 @@ pub enum FormatError {
         column: String,
     },
     /// A needed column is missing.
-    #[error("{}: there is no column {column}, {purpose}{}{}", path.display(), columns(found), suggestion(nearest.as_deref()))]
+    #[error("{}: there is no column {column}, {purpose}{}{}", path.display(), columns(found), suggestion(nearest.as_deref()), column = quote(column))]
     NoColumn {
         /// The file.
         path: PathBuf,
@@ -197,7 +197,7 @@ pub enum FormatError {
         expected: usize,
     },
     /// A field is not a number.
-    #[error("{}: row {row}, column {column}: found {found:?}, a number was expected", path.display())]
+    #[error("{}: row {row}, column {column}: found {found:?}, a number was expected", path.display(), column = quote(column))]
     NotANumber {
         /// The file.
         path: PathBuf,
@@ -209,7 +209,7 @@ pub enum FormatError {
         found: String,
     },
     /// A value is missing.
-    #[error("{}: row {row}, column {column}: the value is missing, a number was expected", path.display())]
+    #[error("{}: row {row}, column {column}: the value is missing, a number was expected", path.display(), column = quote(column))]
     MissingValue {
         /// The file.
         path: PathBuf,
@@ -219,7 +219,7 @@ pub enum FormatError {
         column: String,
     },
     /// A value is NaN or infinite.
-    #[error("{}: row {row}, column {column}: found {found}, a finite number was expected", path.display())]
+    #[error("{}: row {row}, column {column}: found {found}, a finite number was expected", path.display(), column = quote(column))]
     NotFinite {
         /// The file.
         path: PathBuf,
@@ -231,7 +231,7 @@ pub enum FormatError {
         found: String,
     },
     /// A column holds something other than numbers.
-    #[error("{}: column {column} holds {found}, numbers were expected", path.display())]
+    #[error("{}: column {column} holds {found}, numbers were expected", path.display(), column = quote(column))]
     ColumnType {
         /// The file.
         path: PathBuf,
@@ -241,7 +241,7 @@ pub enum FormatError {
         found: String,
     },
     /// Time does not increase from one row to the next.
-    #[error("{}: row {row}, column {column}: time is {} s after {} s, it must increase from row to row", path.display(), short(*found), short(*previous))]
+    #[error("{}: row {row}, column {column}: time is {} s after {} s, it must increase from row to row", path.display(), short(*found), short(*previous), column = quote(column))]
     TimeNotIncreasing {
         /// The file.
         path: PathBuf,

@@ -8,7 +8,7 @@ pub fn suggestion(nearest: Option<&str>) -> String {
 }
 
 /// A name from a file: on one line and of a bounded length, whatever it holds.
-pub(crate) fn quote(name: &str) -> String {
+pub fn quote(name: &str) -> String {
     shorten(&name.replace(char::is_control, " ")).into_owned()
 }
 

@@ -1,3 +1,5 @@
+use log_formats::quote;
+
 use crate::runs::{repair::Repair, run::of_run};
 
 /// A problem of a log that is still usable.
@@ -5,7 +7,7 @@ use crate::runs::{repair::Repair, run::of_run};
 #[non_exhaustive]
 pub enum LogWarning {
     /// The log has a joint that is not in the robot.
-    #[error("{of_run}: joint {joint} of the log is not in the robot, it is left out", of_run = of_run(run))]
+    #[error("{of_run}: joint {joint} of the log is not in the robot, it is left out", of_run = of_run(run), joint = quote(joint))]
     UnknownJoint {
         /// The run.
         run: String,
