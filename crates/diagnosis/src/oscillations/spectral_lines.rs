@@ -13,31 +13,14 @@ pub(crate) enum Follows {
     Clock,
 }
 
-impl Follows {
-    /// The surprisal of a line in noise (nats), from the ratios of its power to that of the spectrum around it in every run.
-    ///
-    /// Over time that of all runs together. Over position that of the run in which it stands out least: friction that
-    /// differs by position has lines in some runs too.
-    pub fn surprisal(self, ratios: impl Iterator<Item = f64>) -> f64 {
-        match self {
-            Self::Position => ratios.fold(f64::INFINITY, f64::min),
-            Self::Clock => {
-                let (sum, runs) = ratios.fold((0.0, 0), |(sum, n), ratio| (sum + ratio, n + 1));
-                surprisal(sum, runs)
-            }
-        }
-    }
-}
-
-/// The spectra of all runs over the same values.
+/// Spectra over the same values: of each run where runs have phases of their own, else one of all runs together.
 pub(crate) struct SpectralLines {
-    /// `[run][value]`
+    /// `[spectrum][value]`
     pub powers: Vec<Vec<f64>>,
     /// The first value of the phase per unit of beat.
     pub first: f64,
     /// Distance between neighbouring values.
     pub step: f64,
-    pub follows: Follows,
 }
 
 /// A line of a spectrum.
@@ -49,12 +32,12 @@ pub(crate) struct SpectralLine {
     pub at: f64,
     /// Distance between neighbouring values of the spectrum.
     pub step: f64,
-    /// Power of the line in every run.
+    /// Power of the line in every spectrum.
     pub power: Vec<f64>,
 }
 
 impl SpectralLines {
-    /// Number of values that every run has.
+    /// Number of values that every spectrum has.
     fn len(&self) -> usize {
         self.powers.iter().map(Vec::len).min().unwrap_or(0)
     }
@@ -65,7 +48,7 @@ impl SpectralLines {
         let around: Vec<Vec<f64>> = self.powers.iter().map(|p| around(&p[..length])).collect();
         let ratio = |r: usize, k: usize| self.powers[r][k] / around[r][k].max(f64::MIN_POSITIVE);
         let runs = 0..self.powers.len();
-        let surprisal = |k: usize| self.follows.surprisal(runs.clone().map(|r| ratio(r, k)));
+        let surprisal = |k: usize| surprisal(runs.clone().map(|r| ratio(r, k)));
         let all: Vec<f64> = (0..length).map(surprisal).collect();
         let index = (0..length).max_by(|&a, &b| all[a].total_cmp(&all[b]))?;
         let (at, step) = (self.first + index as f64 * self.step, self.step);
@@ -87,23 +70,25 @@ impl SpectralLines {
         self.powers.iter().zip(around).map(of).sum::<f64>() / around.len().max(1) as f64
     }
 
-    /// The power around a value in every run.
+    /// The power around a value in every spectrum.
     pub fn around(&self, index: usize) -> Option<Vec<f64>> {
         let length = self.len();
         self.powers.iter().map(|p| around(&p[..length]).get(index).copied()).collect()
     }
 }
 
-/// The surprisal of a line in noise (nats): `-ln P`, with `P` the chance of a sum of power ratios over `runs` as large as `sum`.
+/// The surprisal of a line in noise (nats), from the ratios of its power to that around it in every spectrum: `-ln P`, with
+/// `P` the chance of a sum `S` of `R` ratios as large.
 ///
-/// The power of white noise at one frequency over its mean is exponential, the sum over `R` runs a Gamma variable:
+/// The power of white noise at one frequency over its mean is exponential, the sum over `R` spectra a Gamma variable:
 ///
 /// ```text
 /// P = exp(-S) sum_{k < R} S^k / k!
 /// ```
-fn surprisal(sum: f64, runs: usize) -> f64 {
+pub(crate) fn surprisal(ratios: impl Iterator<Item = f64>) -> f64 {
+    let (sum, spectra) = ratios.fold((0.0, 0), |(sum, n), ratio| (sum + ratio, n + 1));
     let mut term: f64 = 0.0;
-    let terms: Vec<f64> = (0..runs)
+    let terms: Vec<f64> = (0..spectra)
         .map(|k| {
             term += if k > 0 { (sum / k as f64).ln() } else { 0.0 };
             term
@@ -139,10 +124,11 @@ mod tests {
     /// one run, and one of 20 over seven is common.
     #[test]
     fn surprisal_of_a_line_is_the_tail_of_a_gamma_variable() {
-        assert!((surprisal(20.0, 1) - 20.0).abs() < 1e-12);
-        assert!((surprisal(20.0, 2) - (20.0 - 21.0_f64.ln())).abs() < 1e-12);
+        let of = |ratios: &[f64]| surprisal(ratios.iter().copied());
+        assert!((of(&[20.0]) - 20.0).abs() < 1e-12);
+        assert!((of(&[12.0, 8.0]) - (20.0 - 21.0_f64.ln())).abs() < 1e-12);
         // S - ln(1 + S + S^2 / 2! + ... + S^6 / 6!)
-        assert!((surprisal(40.0, 7) - 24.288_310_416_379_8).abs() < 1e-9);
-        assert!((surprisal(20.0, 7) - 8.273_766_752_242_4).abs() < 1e-9);
+        assert!((of(&[34.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]) - 24.288_310_416_379_8).abs() < 1e-9);
+        assert!((of(&[14.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]) - 8.273_766_752_242_4).abs() < 1e-9);
     }
 }

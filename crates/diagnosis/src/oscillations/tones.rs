@@ -9,7 +9,7 @@ use robot::Robot;
 
 use crate::oscillations::lines::Oscillations;
 use crate::oscillations::moving_runs::MovingRuns;
-use crate::oscillations::spectral_lines::{AROUND, Follows, SpectralLine, SpectralLines};
+use crate::oscillations::spectral_lines::{AROUND, Follows, SpectralLine, SpectralLines, surprisal};
 use crate::oscillations::tone_fit::{Coherence, Sampled, ToneFit};
 use crate::oscillations::turning_sum::TurningSum;
 use crate::signals::along::Along;
@@ -39,8 +39,7 @@ pub(crate) struct ToneQuestion<'a> {
 }
 
 /// The oscillations in the residual efforts of a robot in a wide band, at the joints that moved: lines of the
-/// spectrum over time that stand out of all runs together, and over position that stand out of each, and that lower the
-/// error by enough. The robot is `found` by a search; a tone must also be in the difference from the one as it is
+/// spectrum over time or position that stand out of all runs together and that lower the error by enough. The robot is `found` by a search; a tone must also be in the difference from the one as it is
 /// `described`.
 ///
 /// A line as slow as the motion counts under two conditions: it is most of the residual at all times, and at some
@@ -183,8 +182,8 @@ fn is_much_of_its_band(tone: &Tone, clock: &Joint, band_hz: f64) -> bool {
     }
 }
 
-/// Whether the joint moves most of the time in every window, a slow tone is most of the residual in each, and some windows
-/// have no joint with much of its velocity at the frequency of the tone.
+/// Whether a slow tone is most of the residual in every window in which the joint moves most of the time, and some of these
+/// windows have no joint with much of its velocity at the frequency of the tone.
 fn is_no_motion(tone: &Tone, clock: &Joint, slowest_hz: f64) -> bool {
     let Beat::Clock(frequency_hz) = tone.beat else { return false };
     let (runs, t) = (clock.runs, clock.thresholds);
@@ -193,11 +192,16 @@ fn is_no_motion(tone: &Tone, clock: &Joint, slowest_hz: f64) -> bool {
         left.iter().zip(runs).map(of).collect()
     };
     let (with, without) = (slow(clock.left), slow(&clock.without(tone)));
+    let window_s = t.window_s.max(t.window_periods / frequency_hz);
+    let moves = |(r, w): &(usize, Range<usize>)| {
+        let highest = clock.highest[*r].get(w.clone()).unwrap_or_default();
+        2 * highest.iter().filter(|highest| **highest > 0.0).count() > w.len()
+    };
     let windows = || {
         let of = |(r, run): (usize, &&Rest)| {
-            windows(&run.time, t.window_s).into_iter().map(move |w| (r, w))
+            windows(&run.time, window_s).into_iter().map(move |w| (r, w))
         };
-        runs.iter().enumerate().flat_map(of)
+        runs.iter().enumerate().flat_map(of).filter(moves)
     };
     let power = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
     let in_window = |x: &[f64], w: &Range<usize>| x.get(w.clone()).map_or(0.0, power);
@@ -214,13 +218,7 @@ fn is_no_motion(tone: &Tone, clock: &Joint, slowest_hz: f64) -> bool {
         };
         !runs[*r].qd.iter().any(moves)
     };
-    let moves = |(r, w): (usize, Range<usize>)| {
-        let highest = clock.highest[r].get(w.clone()).unwrap_or_default();
-        2 * highest.iter().filter(|highest| **highest > 0.0).count() > w.len()
-    };
-    windows().all(moves)
-        && windows().all(is_most)
-        && windows().filter(is_still).count() >= t.fewest_still
+    windows().all(is_most) && windows().filter(is_still).count() >= t.fewest_still
 }
 
 /// The part of a signal below a cut-off.
@@ -274,7 +272,7 @@ impl<'a> Joint<'a> {
         let rest = spectrum(&Joint { left: &left, ..*self })?;
         let around: Vec<f64> = rest.around(line.index)?;
         let ratios = line.power.iter().zip(&around).map(|(p, a)| p / a.max(f64::MIN_POSITIVE));
-        tone.stands_out = self.follows.surprisal(ratios);
+        tone.stands_out = surprisal(ratios);
         tone.error = tone.error.map(|error| error * rest.beside(line.index, &around).sqrt());
         (tone.stands_out > self.thresholds.above_spectrum).then_some(tone)
     }
@@ -291,7 +289,7 @@ impl<'a> Joint<'a> {
         self.left.iter().enumerate().map(of).collect()
     }
 
-    /// The spectra over position.
+    /// The spectrum over position of all runs together, which share its phase.
     fn waves(&self) -> Option<SpectralLines> {
         let all = || (0..self.runs.len()).flat_map(|r| self.beat(r).iter().copied());
         let (low, high) =
@@ -304,16 +302,23 @@ impl<'a> Joint<'a> {
         let (fewest, most) = (self.thresholds.fewest_waves, self.thresholds.most_waves);
         let first = fewest * wave;
         let count = (4.0 * (most - fewest)) as usize;
-        let powers: Vec<Vec<f64>> = (0..self.left.len())
+        let runs: Vec<Vec<(Complex<f64>, usize)>> = (0..self.left.len())
             .into_par_iter()
             .map(|r| self.scan(r, first, step, count))
             .collect();
-        Some(SpectralLines { powers, first, step, follows: self.follows })
+        let longest = runs.iter().map(Vec::len).max().unwrap_or(0);
+        let power = |k: usize| {
+            let sums = runs.iter().filter_map(|run| run.get(k));
+            let start = (Complex::new(0.0, 0.0), 0);
+            let (sum, n) = sums.fold(start, |(sum, n), &(z, m)| (sum + z, n + m));
+            sum.norm_sqr() / n.max(1) as f64
+        };
+        Some(SpectralLines { powers: vec![(0..longest).map(power).collect()], first, step })
     }
 
-    /// `|sum r exp(-i periods q)|^2 / n` of one run over the samples that count. It ends where fewer samples are left
-    /// than a spectrum needs.
-    fn scan(&self, r: usize, first: f64, step: f64, count: usize) -> Vec<f64> {
+    /// `sum r exp(-i periods q)` of one run over the samples that count, and their number. It ends where fewer samples are
+    /// left than a spectrum needs.
+    fn scan(&self, r: usize, first: f64, step: f64, count: usize) -> Vec<(Complex<f64>, usize)> {
         let mut order: Vec<usize> = (0..self.left[r].len()).collect();
         order.sort_by(|&a, &b| self.highest[r][b].total_cmp(&self.highest[r][a]));
         let beat = self.beat(r);
@@ -322,16 +327,16 @@ impl<'a> Joint<'a> {
             at_all(first).zip(&order).map(|(z, &t)| z * self.left[r][t]),
             at_all(step),
         );
-        let mut powers = Vec::with_capacity(count);
+        let mut sums = Vec::with_capacity(count);
         for k in 0..count {
             let at = first + k as f64 * step;
             let counted = order.partition_point(|&t| self.highest[r][t] >= at);
             if counted < AROUND {
                 break;
             }
-            powers.push(terms.sum_and_turn(counted).norm_sqr() / counted as f64);
+            sums.push((terms.sum_and_turn(counted), counted));
         }
-        powers
+        sums
     }
 
     /// The spectra over time between two frequencies (Hz).
@@ -354,8 +359,7 @@ impl<'a> Joint<'a> {
             Some(used.iter().map(|z| z.norm_sqr() / x.len() as f64).collect())
         };
         let powers: Vec<Vec<f64>> = self.left.iter().map(power).collect::<Option<_>>()?;
-        let (first, step, follows) = (TAU * first as f64 * step, TAU * step, self.follows);
-        Some(SpectralLines { powers, first, step, follows })
+        Some(SpectralLines { powers, first: TAU * first as f64 * step, step: TAU * step })
     }
 
     /// The tone of a line, if it has the same amplitude in all runs and is large enough. Its errors are those for

@@ -10,14 +10,15 @@ pub(crate) fn inadequate(
     t: &ReadinessThresholds,
 ) -> Vec<Option<String>> {
     let reason = |(j, link): (usize, &robot::Link)| {
-        let (range, least) = (range(prepared, j), least(link, t));
+        let range = range(prepared, j);
+        let least = least_to_show(prepared, j, link, t);
         if range <= least {
             let unit = if link.joint.kind.is_rotation() { "rad" } else { "m" };
             return Some(format!(
                 "the joint moves over {range:.4} {unit} in these logs, at least {least:.3} are needed"
             ));
         }
-        let run = prepared.runs.iter().find(|run| is_unrecorded(run, j, least))?;
+        let run = prepared.runs.iter().find(|run| is_unrecorded(run, j, moved(link, t)))?;
         Some(format!("its effort never changes in {}: it was not recorded there", run.name))
     };
     robot.links().iter().enumerate().map(reason).collect()
@@ -31,7 +32,7 @@ pub(crate) fn drop_runs_without_effort(
     t: &ReadinessThresholds,
 ) -> Vec<String> {
     let joints: Vec<(&str, f64)> =
-        robot.links().iter().map(|link| (link.joint.name.as_str(), least(link, t))).collect();
+        robot.links().iter().map(|link| (link.joint.name.as_str(), moved(link, t))).collect();
     let joints_without_effort = |run: &PreparedRun| -> Vec<&str> {
         let those =
             joints.iter().enumerate().filter(|(j, (_, least))| is_unrecorded(run, *j, *least));
@@ -69,9 +70,26 @@ fn is_unrecorded(run: &PreparedRun, j: usize, least: f64) -> bool {
     high - low > least && effort.iter().all(|e| (e - first).abs() <= f64::EPSILON * first.abs())
 }
 
-/// Range of motion above which a joint counts as moved (rad or m).
-fn least(link: &robot::Link, t: &ReadinessThresholds) -> f64 {
+/// Range of motion above which a joint counts as moved, whatever its encoder is (rad or m).
+fn moved(link: &robot::Link, t: &ReadinessThresholds) -> f64 {
     t.unmoved_range * full_range(&link.joint)
+}
+
+/// Range of motion above which the logs show a joint (rad or m): that of [`moved`], or a smaller one that is many steps of
+/// its encoder.
+fn least_to_show(
+    prepared: &Prepared,
+    j: usize,
+    link: &robot::Link,
+    t: &ReadinessThresholds,
+) -> f64 {
+    let Some(noise) = prepared.noise.get(j) else { return moved(link, t) };
+    let (step, rms) = (noise.position.step, noise.position_rms(prepared.cutoff_hz));
+    if step.is_none() && rms == 0.0 {
+        return moved(link, t);
+    }
+    let steps = t.encoder_steps * step.unwrap_or(0.0).max(rms);
+    moved(link, t).min(steps.max(t.least_range * full_range(&link.joint)))
 }
 
 /// Range of motion of joint `j` over all runs (rad or m).

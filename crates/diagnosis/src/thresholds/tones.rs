@@ -57,7 +57,9 @@ pub struct ToneThresholds {
     /// Most power of a tone over that of the difference between measured and nominal effort in the same band (1). What is
     /// larger is made up by a wrong cause that the tone cancels.
     pub most_of_gap: f64,
-    /// Length of a window in which a slow tone is compared (s): some periods of the slowest line that is looked for.
+    /// Length of a window in which a slow tone is compared, in periods of the tone (1).
+    pub window_periods: f64,
+    /// Least length of such a window (s).
     pub window_s: f64,
     /// Fewest windows in which no joint moves at the frequency of a slow tone.
     pub fewest_still: usize,
@@ -89,7 +91,8 @@ impl Default for ToneThresholds {
             share_of_motion: 0.5,
             slow_band: 2.0,
             most_of_gap: 2.0,
-            window_s: 5.0,
+            window_periods: 4.0,
+            window_s: 2.0,
             fewest_still: 2,
         }
     }

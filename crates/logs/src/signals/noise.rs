@@ -92,6 +92,11 @@ impl JointNoise {
         squares.fold(f64::INFINITY, f64::min).sqrt()
     }
 
+    /// Standard deviation of the noise of the position after the same low-pass (rad or m).
+    pub fn position_rms(&self, cutoff_hz: f64) -> f64 {
+        (PASSED[0] * self.position.density * cutoff_hz).sqrt()
+    }
+
     /// Standard deviation of the noise of the velocity after the same low-pass (rad/s or m/s).
     pub fn velocity_rms(&self, cutoff_hz: f64) -> f64 {
         let differentiated = PASSED[1] * (TAU * cutoff_hz).powi(2) * self.position.density;
