@@ -20,6 +20,7 @@ mod late_goals;
 mod ledger;
 mod light_links;
 mod long;
+mod oscillations;
 mod poor;
 mod protocols;
 mod read_so;

@@ -9,7 +9,9 @@ use robot::Robot;
 
 use crate::oscillations::lines::Oscillations;
 use crate::oscillations::moving_runs::MovingRuns;
-use crate::oscillations::spectral_lines::{AROUND, Follows, SpectralLine, SpectralLines, surprisal};
+use crate::oscillations::spectral_lines::{
+    AROUND, Follows, SpectralLine, SpectralLines, surprisal,
+};
 use crate::oscillations::tone_fit::{Coherence, Sampled, ToneFit};
 use crate::oscillations::turning_sum::TurningSum;
 use crate::signals::along::Along;
@@ -421,12 +423,13 @@ impl<'a> Joint<'a> {
         sums
     }
 
-    /// Whether the first halves of all runs have the same amplitude at a beat (rad per unit) as the second halves, within
-    /// [`ToneThresholds::same_in_runs`]. What comes from a motion that changes its pace does not.
+    /// Whether the first halves of what counts in all runs have the same amplitude at a beat (rad per unit) as the second halves,
+    /// within [`ToneThresholds::same_in_runs`]. What comes from a motion that changes its pace does not.
     fn lasts(&self, at: f64) -> bool {
         let half = |is_second: bool| {
             let of = |r: usize| {
-                let middle = self.left[r].len() / 2;
+                let mut counted = (0..self.left[r].len()).filter(|&t| self.highest[r][t] >= at);
+                let middle = counted.nth(self.count(r, at) / 2).unwrap_or(0);
                 let samples = if is_second { middle..self.left[r].len() } else { 0..middle };
                 self.sum_over(r, samples, at)
             };
@@ -435,6 +438,11 @@ impl<'a> Joint<'a> {
         };
         let [first, second] = [half(false), half(true)].map(|(size, n)| size / n.max(1) as f64);
         first.min(second) >= self.thresholds.same_in_runs * first.max(second)
+    }
+
+    /// Number of samples of one run that count at a beat (rad per unit).
+    fn count(&self, r: usize, at: f64) -> usize {
+        self.highest[r].iter().filter(|highest| **highest >= at).count()
     }
 
     /// The tone near a value of the beat (rad per unit), by least squares.

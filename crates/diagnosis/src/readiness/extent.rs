@@ -143,6 +143,20 @@ mod tests {
         assert_eq!(reason(0.12).as_deref(), Some(expected));
     }
 
+    /// A fine encoder shows a smaller motion: 200 of its steps, and .025 rad at least.
+    #[test]
+    fn a_fine_encoder_shows_a_small_motion() {
+        let reason = |range, step| {
+            let mut prepared = Prepared::exact(vec![run("a", 1000, range, 2.0)], 5.0);
+            prepared.noise[0].position.step = Some(step);
+            inadequate(&pendulum(), &prepared, &ReadinessThresholds::default()).remove(0)
+        };
+        assert_eq!(reason(0.05, 2e-4), None);
+        assert!(reason(0.05, 4e-4).is_some_and(|told| told.contains("at least 0.080")));
+        assert!(reason(0.024, 1e-6).is_some_and(|told| told.contains("at least 0.025")));
+        assert!(reason(0.12, 0.1).is_some_and(|told| told.contains("at least 0.126")));
+    }
+
     #[test]
     fn a_short_run_without_effort_is_left_out_and_a_long_one_spoils_the_joint() {
         let observe = |samples| {
