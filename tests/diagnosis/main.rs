@@ -7,6 +7,7 @@ mod clean;
 mod compare;
 mod constant;
 mod counterbalance;
+mod described_friction;
 mod extended;
 mod false_alarms;
 mod formats;

@@ -55,15 +55,15 @@ impl PlaceTest {
         }
         let (complement, u) = fit.beyond(&problem.info, &columns, &problem.design.prior);
         let square = Cholesky::new(complement.b).map_or(0.0, |b| u.dot(&b.solve(&u)));
-        let (before, after) = (problem.hold_out(&bare), problem.hold_out(&larger));
+        let before = problem.hold_out(&bare);
+        let after = ModelState::new(problem, larger)?;
         Some(Self {
             evidence: finite(selection.evidence_gain(&bare, &fit, g)),
             least_evidence,
             sigmas: finite(square.max(0.0).sqrt()),
-            is_possible: ModelState::new(problem, larger)
-                .is_some_and(|state| selection.is_possible(&state, g).is_ok()),
+            is_possible: selection.is_possible(&after, g).is_ok(),
             pays: selection.pays(&before, &after, g).is_ok(),
-            fall: finite(largest_fall(selection, [&before, &after], g)),
+            fall: finite(largest_fall(selection, [&before, after.held_out()], g)),
         })
     }
 }

@@ -14,6 +14,7 @@ use crate::result::{
     SCHEMA, Unexplained, Verdict,
 };
 use crate::search::dataset::Dataset;
+use crate::search::friction_error::friction_level;
 use crate::search::inputs::Inputs;
 use crate::signals::along::REGRESSION_RATE;
 use crate::signals::tone::Tone;
@@ -82,7 +83,9 @@ impl Inputs<'_> {
             samples: independent(&rest),
             noise: noise.rms(j),
             source: self.nominal.links()[j].actuator.torque_source,
-            friction: self.friction_error(j),
+            friction: self
+                .friction_error(j)
+                .of_at_most(friction_level(&tested.extended.links()[j].actuator)),
             sliding_rms: rms(&self.sliding_part(left, j)),
             keeps_nominal: tested.kept_nominal.has_dropped_at(self.design, j),
             practical: self.settings.open_share,

@@ -64,7 +64,7 @@ impl Situation<'_> {
     /// described, while the joint slides.
     fn errors_and_floors(&self) -> impl Iterator<Item = [f64; 2]> {
         let of = |rms, unpredictable| [rms, self.noise.0.hypot(unpredictable)];
-        let FrictionError { all, sliding } = self.friction;
+        let FrictionError { all, sliding, .. } = self.friction;
         let while_sliding = (sliding > 0.0).then(|| of(self.sliding_rms, sliding));
         std::iter::once(of(self.remaining_rms, all)).chain(while_sliding)
     }
@@ -253,7 +253,7 @@ mod tests {
             samples: 450.0,
             noise: (noise, NoiseFloorSource::Effort),
             source: TorqueSource::Measured,
-            friction: FrictionError { all: 0.0, sliding: 0.0 },
+            friction: FrictionError::NONE,
             sliding_rms: remaining_rms,
             practical: 0.02,
             structure: 0.0,
@@ -299,7 +299,7 @@ mod tests {
         let of_the_arm = Situation { own: 0, ..joint(1, 1.6, 1.6) };
         assert_eq!(of_the_arm.verdict().0, Verdict::Explained);
         // Nor does the friction of a joint that often turns.
-        let friction = FrictionError { all: 1.5, sliding: 0.6 };
+        let friction = FrictionError { all: 1.5, sliding: 0.6, level: 3.0 };
         let turning =
             |left| Situation { friction, sliding_rms: 0.1, ..joint(0, left, 0.1) }.verdict().0;
         assert_eq!(turning(1.4), Verdict::Consistent);
@@ -333,7 +333,7 @@ mod tests {
     #[test]
     fn dry_friction_that_turns_may_be_anything_up_to_its_level() {
         let turning = |all, sliding_rms| {
-            let friction = FrictionError { all, sliding: 0.15 };
+            let friction = FrictionError { all, sliding: 0.15, level: 3.0 };
             Situation { friction, sliding_rms, ..joint(0, 0.5, 0.1) }.verdict().0
         };
         assert_eq!(turning(0.2, 0.1), Verdict::Unexplained);

@@ -12,7 +12,7 @@ use crate::regression::gram::Grams;
 use crate::regression::linear_fit::LinearFit;
 use crate::regression::problem::{HypothesisSet, Problem};
 use crate::search::dataset::Dataset;
-use crate::search::friction_error::FrictionError;
+use crate::search::friction_error::{FrictionError, friction_level};
 use crate::settings::Settings;
 use crate::signals::log::Log;
 use crate::thresholds::Thresholds;
@@ -91,9 +91,7 @@ impl Inputs<'_> {
             joint.is_informative.iter().zip(&joint.slides).filter(|(t, s)| **t && **s).count()
         };
         let sliding: usize = joints().map(slides).sum();
-        let drive = &self.nominal.links()[j].actuator;
-        let level = 0.5 * (drive.coulomb_forward + drive.coulomb_backward);
-        let level = (drive.transmission_ratio * drive.torque_gain * level).abs();
+        let level = friction_level(&self.nominal.links()[j].actuator);
         let counts = [informative - sliding, informative];
         FrictionError::new(level, counts, self.thresholds().search.rough_friction)
     }

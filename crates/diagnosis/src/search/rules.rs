@@ -1,7 +1,11 @@
+use catalogue::EffectKind;
+use effects::{Hypothesis, Place};
+
 use crate::regression::fit::Fit;
 use crate::regression::physical_inertias::physical_inertias;
 use crate::regression::problem::{HeldOutResiduals, HypothesisSet};
 use crate::search::change::Change;
+use crate::search::friction_error::{FrictionError, friction_level};
 use crate::search::kept_nominal::KeptNominal;
 use crate::search::model_state::ModelState;
 use crate::search::paired_difference::PairedDifference;
@@ -145,7 +149,7 @@ impl Selection<'_> {
         after: &ModelState,
     ) -> Result<(), Refusal> {
         if let Some(&first) = change.enter.first() {
-            self.pays(state.held_out(), after.held_out(), first)?;
+            self.pays(state.held_out(), after, first)?;
         }
         if change.enter.len() < 2 {
             return Ok(());
@@ -154,32 +158,36 @@ impl Selection<'_> {
             let others: Vec<usize> = change.enter.iter().copied().filter(|h| *h != g).collect();
             let beside = Change { enter: others, ..change.clone() };
             let before = self.problem.hold_out(&self.apply(&state.model, &beside));
-            self.pays(&before, after.held_out(), g)
+            self.pays(&before, after, g)
         })
     }
 
     /// With `g` the error of held-out blocks falls by enough at one of its joints: by the practical share, or by half
-    /// of the residual (RMS). What is like friction that turns must also explain more than described friction may have
-    /// near rest, or more than its law may err by while the joint slides.
+    /// of the residual (RMS). What is like friction that turns must also explain more than described friction, of the level
+    /// that the model leaves it, may have near rest, or more than its law may err by while the joint slides.
     pub fn pays(
         &self,
         before: &HeldOutResiduals,
-        after: &HeldOutResiduals,
+        model: &ModelState,
         g: usize,
     ) -> Result<(), Refusal> {
+        let after = model.held_out();
         let share = self.thresholds().remaining_share;
         let fall = |j: usize| before.mean_square[j] - after.mean_square[j];
         let group = &self.problem.design.groups[g];
         let is_like_it = group.hypothesis.is_like_turning_friction();
-        let near_rest = |j: usize| if is_like_it { self.friction[j].all } else { 0.0 };
+        let described = |j: usize| match is_like_it {
+            true => self.friction_error(model, j),
+            false => FrictionError::NONE,
+        };
         let least = |j: usize| {
             let least = self.practical[j].powi(2).min(share.powi(2) * before.mean_square[j]);
-            least.max(near_rest(j).powi(2))
+            least.max(described(j).all.powi(2))
         };
         let pays_in_sliding = |j: usize| {
             let fall = before.mean_square_sliding[j] - after.mean_square_sliding[j];
-            let error = self.friction[j].sliding;
-            is_like_it && error > 0.0 && fall > self.practical[j].max(error).powi(2)
+            let error = described(j).sliding;
+            error > 0.0 && fall > self.practical[j].max(error).powi(2)
         };
         let joints = &group.joints;
         if joints.iter().any(|&j| fall(j) > least(j) || pays_in_sliding(j)) {
@@ -190,6 +198,27 @@ impl Selection<'_> {
         let root = |square: f64| square.signum() * square.abs().sqrt();
         let [by, least] = at.map_or([0.0; 2], |j| [root(fall(j)), root(least(j))]);
         Err(Refusal::NoBetterPrediction { at, by, least })
+    }
+
+    /// What the law of described dry friction may err by at joint `j`, of the level that a model leaves of it.
+    fn friction_error(&self, model: &ModelState, j: usize) -> FrictionError {
+        let design = self.problem.design;
+        let is_level = |g: &&usize| {
+            let Hypothesis { kind, place } = design.groups[**g].hypothesis;
+            let changes = matches!(kind, EffectKind::CoulombFriction | EffectKind::AsymmetricFriction);
+            changes && place == Place::Joint(j)
+        };
+        let levels: Vec<usize> = model.model.iter().filter(is_level).copied().collect();
+        if self.friction[j] == FrictionError::NONE || levels.is_empty() {
+            return self.friction[j];
+        }
+        let (mut robot, weights) = (self.robot.clone(), model.fit.expand(design.width));
+        for g in levels {
+            let group = &design.groups[g];
+            let own: Vec<f64> = group.columns.iter().map(|&c| weights[c]).collect();
+            group.hypothesis.extend(&mut robot, &own, &design.frame, &design.priors);
+        }
+        self.friction[j].of_at_most(friction_level(&robot.links()[j].actuator))
     }
 
     /// A hypothesis of a model passes the rules for entering the model `without` it.
@@ -204,7 +233,7 @@ impl Selection<'_> {
         if gain < least {
             return Err(Refusal::TooLittleEvidence { gain, least, taken_by: None });
         }
-        self.pays(without.held_out(), state.held_out(), g)
+        self.pays(without.held_out(), state, g)
     }
 }
 
