@@ -423,13 +423,12 @@ impl<'a> Joint<'a> {
         sums
     }
 
-    /// Whether the first halves of what counts in all runs have the same amplitude at a beat (rad per unit) as the second halves,
-    /// within [`ToneThresholds::same_in_runs`]. What comes from a motion that changes its pace does not.
+    /// Whether the first halves of all runs have the same amplitude at a beat (rad per unit) as the second halves, within
+    /// [`ToneThresholds::same_in_runs`]. What comes from a motion that changes its pace does not.
     fn lasts(&self, at: f64) -> bool {
         let half = |is_second: bool| {
             let of = |r: usize| {
-                let mut counted = (0..self.left[r].len()).filter(|&t| self.highest[r][t] >= at);
-                let middle = counted.nth(self.count(r, at) / 2).unwrap_or(0);
+                let middle = self.middle(r, at);
                 let samples = if is_second { middle..self.left[r].len() } else { 0..middle };
                 self.sum_over(r, samples, at)
             };
@@ -438,6 +437,16 @@ impl<'a> Joint<'a> {
         };
         let [first, second] = [half(false), half(true)].map(|(size, n)| size / n.max(1) as f64);
         first.min(second) >= self.thresholds.same_in_runs * first.max(second)
+    }
+
+    /// The sample at which the second half of a run begins. Over time the halves are of what counts. Over position they are of
+    /// the run: a joint that moves in a part of it alone, by a stroke or two, has lines there that come from its starts.
+    fn middle(&self, r: usize, at: f64) -> usize {
+        if self.follows == Follows::Position {
+            return self.left[r].len() / 2;
+        }
+        let mut counted = (0..self.left[r].len()).filter(|&t| self.highest[r][t] >= at);
+        counted.nth(self.count(r, at) / 2).unwrap_or(0)
     }
 
     /// Number of samples of one run that count at a beat (rad per unit).

@@ -11,7 +11,7 @@ pub(crate) fn inadequate(
 ) -> Vec<Option<String>> {
     let reason = |(j, link): (usize, &robot::Link)| {
         let range = range(prepared, j);
-        let least = least_to_show(prepared, j, link, t);
+        let least = least_to_show(robot, prepared, j, t);
         if range <= least {
             let unit = if link.joint.kind.is_rotation() { "rad" } else { "m" };
             return Some(format!(
@@ -76,26 +76,30 @@ fn moved(link: &robot::Link, t: &ReadinessThresholds) -> f64 {
 }
 
 /// Range of motion above which the logs show a joint (rad or m): that of [`moved`], or a smaller one that is many steps of
-/// its encoder.
-fn least_to_show(
-    prepared: &Prepared,
-    j: usize,
-    link: &robot::Link,
-    t: &ReadinessThresholds,
-) -> f64 {
+/// its encoder and a part of what other joints move. A joint that is held is shaken by those that move: that of a WAM turns
+/// over .04 rad while its shoulder sweeps over 2.2.
+fn least_to_show(robot: &Robot, prepared: &Prepared, j: usize, t: &ReadinessThresholds) -> f64 {
+    let link = &robot.links()[j];
     let Some(noise) = prepared.noise.get(j) else { return moved(link, t) };
     let (step, rms) = (noise.position.step, noise.position_rms(prepared.cutoff_hz));
     if step.is_none() && rms == 0.0 {
         return moved(link, t);
     }
     let steps = t.encoder_steps * step.unwrap_or(0.0).max(rms);
-    moved(link, t).min(steps.max(t.least_range * full_range(&link.joint)))
+    let share = t.least_range.max(t.held_range * largest_share(prepared, robot));
+    moved(link, t).min(steps.max(share * full_range(&link.joint)))
 }
 
 /// Range of motion of joint `j` over all runs (rad or m).
 pub(crate) fn range(prepared: &Prepared, j: usize) -> f64 {
     let (low, high) = prepared.span(j);
     high - low
+}
+
+/// The largest range of motion of a joint, as a share of its full range (1).
+fn largest_share(prepared: &Prepared, robot: &Robot) -> f64 {
+    let links = robot.links().iter().enumerate();
+    links.map(|(j, link)| range(prepared, j) / full_range(&link.joint)).fold(0.0, f64::max)
 }
 
 /// The span of a joint's limits, at most a full turn (rad); one metre for a prismatic

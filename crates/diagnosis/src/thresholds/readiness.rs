@@ -6,6 +6,9 @@ pub struct ReadinessThresholds {
     pub unmoved_range: f64,
     /// The same where the encoder is fine (1): .025 rad for a joint that turns freely.
     pub least_range: f64,
+    /// Least share of what the joint that moves most moves, each over its full range, that is no shaking of a joint which is held
+    /// (1).
+    pub held_range: f64,
     /// Steps of the encoder, or deviations of its noise in the band of the diagnosis, that a fine encoder has over the range
     /// of motion (1).
     pub encoder_steps: f64,
@@ -25,6 +28,7 @@ impl Default for ReadinessThresholds {
         Self {
             unmoved_range: 0.02,
             least_range: 0.004,
+            held_range: 0.1,
             encoder_steps: 200.0,
             at_limit_from: 0.95,
             at_limit_share: 0.01,
