@@ -8,6 +8,7 @@ mod compare;
 mod constant;
 mod counterbalance;
 mod described_friction;
+mod elastic_resonance;
 mod extended;
 mod false_alarms;
 mod formats;

@@ -103,6 +103,7 @@ fn frame(robot: &Robot) -> Frame {
         reach: vec![1.0; n],
         resolution: vec![0.0; n],
         trial_gaps: vec![0.0; n],
+        trial_springs: vec![None; n],
         trial_lateness_s: 0.0,
     }
 }

@@ -147,6 +147,7 @@ fn reported() -> (Robot, Frame, [Vec<Vec<f64>>; 3]) {
         reach: vec![1.0; 7],
         resolution: vec![1e-5; 7],
         trial_gaps: vec![0.0; 7],
+        trial_springs: vec![None; 7],
         trial_lateness_s: 0.0,
     };
     (wam(), frame, [signal(0.8, 0.0), signal(1.0, 1.3), signal(2.0, 0.7)])

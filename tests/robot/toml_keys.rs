@@ -30,7 +30,7 @@ torque_source = \"current\"\ndifferentials = [[\"elbow\", \"shoulder\"]]
 [joint.shoulder]
 rotor_inertia_kg_m2 = 0.1\nviscous_nm_s_per_rad = 0.2\ncoulomb_nm = 0.3
 spring_stiffness_nm_per_rad = 0.4\nspring_rest_rad = 0.5\nspring_cubic_nm_per_rad3 = 0.06\nspring_hysteresis_nm = 0.07\ntorque_gain = 0.6
-torque_offset_nm = 0.7\nbacklash_rad = 0.01\nelasticity_nm_per_rad = 2000\nactuator_delay_ms = 4
+torque_offset_nm = 0.7\nbacklash_rad = 0.01\nelasticity_nm_per_rad = 2000\nelasticity_damping_nm_s_per_rad = 1.5\nactuator_delay_ms = 4
 torque_limit_nm = 8\nkp_nm_per_rad = 9\nkd_nm_s_per_rad = 1
 [joint.elbow]
 coulomb_forward_nm = 1\ncoulomb_backward_nm = 2
@@ -54,6 +54,7 @@ inertia_kg_m2 = { xx = 1, xy = 0.01, xz = 0.02, yy = 1.1, yz = 0.03, zz = 1.2 }"
     assert_eq!((a.spring_cubic, a.spring_hysteresis), (0.06, 0.07));
     assert_eq!((a.torque_gain, a.torque_offset), (0.6, 0.7));
     assert_eq!((a.backlash, a.elasticity, a.delay_s), (0.01, Some(2000.0), 0.004));
+    assert_eq!((a.elasticity_damping, lower.actuator.elasticity_damping), (Some(1.5), None));
     assert_eq!((a.sensing, a.torque_source), (SensingSide::Motor, TorqueSource::Current));
     assert_eq!(upper.joint.limits.effort, Some(8.0));
     let b = &lower.actuator;
@@ -285,6 +286,11 @@ fn keys_that_disagree_are_refused() {
         refused("[joint.elbow]\npresliding_damping_nm_s_per_rad = 1"),
         "robot.toml:2:1: joint.elbow: presliding_damping_nm_s_per_rad is there alone, \
          presliding_rad as well was expected"
+    );
+    assert_eq!(
+        refused("[joint.elbow]\nelasticity_damping_nm_s_per_rad = 1"),
+        "robot.toml:2:1: joint.elbow: elasticity_damping_nm_s_per_rad is there alone, \
+         elasticity_nm_per_rad as well was expected"
     );
     assert_eq!(
         refused("[gains.soft]\nkp_nm_per_rad = [1]\nkd_nm_s_per_rad = [1, 2]"),

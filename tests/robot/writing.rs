@@ -99,6 +99,7 @@ proptest! {
         [a.rotor_inertia, a.torque_gain, _, _] = positive;
         a.backlash = transmission.0;
         a.elasticity = transmission.1;
+        a.elasticity_damping = a.elasticity.map(|k| 1e-3 * k);
         a.delay_s = 1e-3 * transmission.2;
         a.stribeck = dry.map(|(excess, velocity, ..)| Stribeck { excess, velocity });
         a.load_friction = dry.map_or(0.0, |(_, _, load, _)| load);

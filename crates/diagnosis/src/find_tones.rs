@@ -7,6 +7,7 @@ use crate::columns::shapes::with_best_shapes;
 use crate::error::DiagnosisError;
 use crate::oscillations::lines::Oscillations;
 use crate::oscillations::tones::{ToneQuestion, tones};
+use crate::regression::fitted_springs::fit_trial_springs;
 use crate::search::inputs::Inputs;
 use crate::settings::Settings;
 use crate::signals::log::Log;
@@ -20,7 +21,8 @@ pub(crate) struct ShapedDesign {
 
 impl ShapedDesign {
     fn new(robot: &Robot, log: &Log) -> Result<Self, DiagnosisError> {
-        let shaped = with_best_shapes(robot, log)?;
+        let mut shaped = with_best_shapes(robot, log)?;
+        fit_trial_springs(&mut shaped, log)?;
         let design = Design::of_shaped(&shaped, log)?;
         Ok(Self { robot: shaped.robot, design })
     }

@@ -58,5 +58,6 @@ pub use thresholds::readiness::ReadinessThresholds;
 pub use thresholds::search::SearchThresholds;
 pub use thresholds::signals::SignalThresholds;
 pub use thresholds::sizes::SizeThresholds;
+pub use thresholds::springs::SpringThresholds;
 pub use thresholds::tones::ToneThresholds;
 pub use thresholds::verdict::VerdictThresholds;

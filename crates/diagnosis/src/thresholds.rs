@@ -6,6 +6,7 @@ pub(crate) mod readiness;
 pub(crate) mod search;
 pub(crate) mod signals;
 pub(crate) mod sizes;
+pub(crate) mod springs;
 pub(crate) mod tones;
 pub(crate) mod verdict;
 
@@ -18,6 +19,7 @@ use crate::thresholds::readiness::ReadinessThresholds;
 use crate::thresholds::search::SearchThresholds;
 use crate::thresholds::signals::SignalThresholds;
 use crate::thresholds::sizes::SizeThresholds;
+use crate::thresholds::springs::SpringThresholds;
 use crate::thresholds::tones::ToneThresholds;
 use crate::thresholds::verdict::VerdictThresholds;
 
@@ -35,6 +37,8 @@ pub struct Thresholds {
     pub readiness: ReadinessThresholds,
     /// Which samples are informative about a joint, and which runs repeat a motion.
     pub signals: SignalThresholds,
+    /// Which trial springs joint elasticity has.
+    pub springs: SpringThresholds,
     /// How logs are cut into blocks, and blocks into folds.
     pub blocks: BlockThresholds,
     /// Lines of the spectrum.

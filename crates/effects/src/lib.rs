@@ -39,7 +39,7 @@ pub use hypothesis::{Hypothesis, hypotheses};
 pub use model::{MODELLED, model, remedy};
 pub use motion::drive::drive_torque;
 pub use motion::encoders::Encoders;
-pub use motion::frame::Frame;
+pub use motion::frame::{Frame, TrialSpring};
 pub use motion::run_motion::RunMotion;
 pub use motion::scale::Scale;
 pub use place::{AtBase, AtJoint, InLink, Place, TypedPlace};

@@ -5,6 +5,7 @@ use crate::abilities::{HasShape, ShapedDrive};
 use crate::column::EffectColumn;
 use crate::hypothesis::Hypothesis;
 use crate::model::{MODELLED, model};
+use crate::motion::frame::TrialSpring;
 use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
 use crate::place::{AtJoint, Place, TypedPlace};
@@ -27,6 +28,8 @@ pub struct ShapedRobot {
     pub robot: Robot,
     /// Trial gap of each joint (rad or m), for [`Frame::trial_gaps`](crate::Frame::trial_gaps); 0 where none is set.
     pub trial_gaps: Vec<f64>,
+    /// Trial spring of each joint, for [`Frame::trial_springs`](crate::Frame::trial_springs); `None` where none is set.
+    pub trial_springs: Vec<Option<TrialSpring>>,
     /// Trial time of late goals (s), for [`Frame::trial_lateness_s`](crate::Frame::trial_lateness_s); 0 where none is set.
     pub trial_lateness_s: f64,
 }
@@ -35,7 +38,8 @@ impl ShapedRobot {
     /// The robot with no trial shape yet.
     pub fn new(robot: Robot) -> Self {
         let trial_gaps = vec![0.0; robot.joint_count()];
-        Self { robot, trial_gaps, trial_lateness_s: 0.0 }
+        let trial_springs = vec![None; robot.joint_count()];
+        Self { robot, trial_gaps, trial_springs, trial_lateness_s: 0.0 }
     }
 
     /// Gives the robot an effect with this shape and size zero, which does not change its efforts.

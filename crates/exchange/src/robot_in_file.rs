@@ -92,7 +92,7 @@ fn leave_out(quantity: DriveQuantity, drive: &mut Actuator) {
         Q::EffortGain => drive.torque_gain = 1.0,
         Q::EffortOffset => drive.torque_offset = 0.0,
         Q::Backlash => drive.backlash = 0.0,
-        Q::Elasticity => drive.elasticity = None,
+        Q::Elasticity => (drive.elasticity, drive.elasticity_damping) = (None, None),
         Q::Delay => drive.delay_s = 0.0,
         Q::Lag => drive.lag_s = 0.0,
         Q::EncoderOffset => drive.encoder_offset = 0.0,

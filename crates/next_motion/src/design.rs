@@ -239,6 +239,7 @@ mod tests {
             reach: vec![1.0; 2],
             resolution: vec![0.0; 2],
             trial_gaps: vec![0.0; 2],
+            trial_springs: vec![None; 2],
             trial_lateness_s: 0.0,
         };
         let motion = found.motion.unwrap().motion;

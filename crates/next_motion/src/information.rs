@@ -249,6 +249,7 @@ mod tests {
             reach: vec![1.0],
             resolution: vec![0.0],
             trial_gaps: vec![0.0],
+            trial_springs: vec![None],
             trial_lateness_s: 0.0,
         };
         let at = |kind| Hypothesis { kind, place: Place::Joint(0) };

@@ -40,10 +40,17 @@ impl Known {
         logs: &Prepared,
     ) -> Result<Self, NextMotionError> {
         let (robot, trial_gaps) = (&shaped.robot, shaped.trial_gaps.clone());
+        let trial_springs = shaped.trial_springs.clone();
         let scale = Scale::of_logs(robot, logs);
         let rest_speed = scale.speed.iter().map(|speed| REST_SHARE * speed).collect();
         let trial_lateness_s = shaped.trial_lateness_s;
-        let frame = Frame { rest_speed, trial_gaps, trial_lateness_s, ..Frame::of_logs(logs) };
+        let frame = Frame {
+            rest_speed,
+            trial_gaps,
+            trial_springs,
+            trial_lateness_s,
+            ..Frame::of_logs(logs)
+        };
         let information = along_logs(robot, layout, &frame, logs)?;
         Ok(Self { frame, scale, information, source: Source::Logs })
     }
@@ -59,6 +66,7 @@ impl Known {
                 reach: each(|u| u.half),
                 resolution: vec![0.0; usable.len()],
                 trial_gaps: shaped.trial_gaps.clone(),
+                trial_springs: shaped.trial_springs.clone(),
                 trial_lateness_s: shaped.trial_lateness_s,
             },
             scale: scale_of_limits(&shaped.robot),

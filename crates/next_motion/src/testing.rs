@@ -64,6 +64,7 @@ pub(crate) fn log(robot: &Robot, extra: impl Fn(f64) -> f64) -> Prepared {
         reach: vec![1.0; joints],
         resolution: vec![0.0; joints],
         trial_gaps: vec![0.0; joints],
+        trial_springs: vec![None; joints],
         trial_lateness_s: 0.0,
     };
     let motion = MotionRecord::of_run(&run, 1).evaluate(robot, &frame);

@@ -83,10 +83,19 @@ impl Design {
 
     /// Evaluates every hypothesis about a robot with trial shapes along the prepared runs.
     pub fn of_shaped(shaped: &ShapedRobot, log: &Log) -> Result<Self, LogError> {
-        let trial_gaps = shaped.trial_gaps.clone();
-        let trial_lateness_s = shaped.trial_lateness_s;
-        let frame = Frame { trial_gaps, trial_lateness_s, ..Frame::of_logs(log.prepared) };
-        Self::within(frame, &shaped.robot, log, &hypotheses_of(&shaped.robot, log))
+        Self::of_shaped_with(shaped, log, &hypotheses_of(&shaped.robot, log))
+    }
+
+    /// Evaluates the given hypotheses about a robot with trial shapes along the prepared runs.
+    pub fn of_shaped_with(
+        shaped: &ShapedRobot,
+        log: &Log,
+        hypotheses: &[Hypothesis],
+    ) -> Result<Self, LogError> {
+        let ShapedRobot { robot, trial_gaps, trial_springs, trial_lateness_s } = shaped.clone();
+        let of_logs = Frame::of_logs(log.prepared);
+        let frame = Frame { trial_gaps, trial_springs, trial_lateness_s, ..of_logs };
+        Self::within(frame, &robot, log, hypotheses)
     }
 
     /// Evaluates the same hypotheses about the same `robot` along other logs.

@@ -15,4 +15,5 @@ pub(crate) mod readings;
 pub(crate) mod repeats;
 pub(crate) mod run_design;
 pub(crate) mod shapes;
+pub(crate) mod springs;
 pub(crate) mod stratum;

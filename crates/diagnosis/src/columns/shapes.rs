@@ -10,6 +10,7 @@ use robot::Robot;
 use crate::columns::design::Design;
 use crate::columns::late_goals::best_lateness_s;
 use crate::columns::linear_rest::LinearRest;
+use crate::columns::springs::trial_springs;
 use crate::signals::along::Along;
 use crate::signals::log::Log;
 
@@ -63,6 +64,7 @@ pub(crate) fn with_best_shapes(robot: &Robot, log: &Log) -> Result<ShapedRobot, 
     }
     let mut shaped = ShapedRobot::new(robot.clone());
     best.into_values().for_each(|(_, shape)| shaped.set_shape(shape));
+    shaped.trial_springs = trial_springs(robot, log, &left, &runs)?;
     shaped.trial_lateness_s = best_lateness_s(robot, log, &runs)?;
     Ok(shaped)
 }

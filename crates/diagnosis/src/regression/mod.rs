@@ -6,6 +6,7 @@ pub(crate) mod body_errors;
 pub(crate) mod extend_robot;
 pub(crate) mod fit;
 pub(crate) mod fitted_model;
+pub(crate) mod fitted_springs;
 pub(crate) mod gram;
 pub(crate) mod linear_fit;
 pub(crate) mod noise;

@@ -104,8 +104,8 @@ impl Uncertainty {
             let gradient = DVector::from_iterator(own.len(), slopes.iter().map(|s| s[i]));
             let interval = |with: f64| match is_reciprocal {
                 true => {
-                    let every = DVector::from_element(own.len(), 1.0);
-                    reciprocal_interval(quantity.value.recip(), self.half(&place, &every, with))
+                    let only = DVector::from_fn(own.len(), |k, _| f64::from(u8::from(k == i)));
+                    reciprocal_interval(quantity.value.recip(), self.half(&place, &only, with))
                 }
                 false => {
                     let half = self.half(&place, &gradient, with);

@@ -138,6 +138,15 @@ impl<'a> Along<'a> {
         self
     }
 
+    /// Removes how links swing on their springs from where the run begins, from efforts and columns alike.
+    pub fn without_swings(mut self) -> Self {
+        for part in self.motion.swings().into_iter().flatten() {
+            let swing = self.finish(part.joint, part.values);
+            self.add_to_basis(part.joint, swing);
+        }
+        self
+    }
+
     /// One where joint `j` moves, else zero. Also zero are the samples within reach of the decimation filter from a
     /// standstill, and the end of the run, which a late torque needs.
     fn moving_mask(&self, j: usize) -> Vec<f64> {
@@ -155,14 +164,19 @@ impl<'a> Along<'a> {
         };
         let phase = || beat.iter().map(|b| tone.beat.rate() * b);
         for sine in [phase().map(f64::cos).collect(), phase().map(f64::sin).collect()] {
-            // The second projection takes what the first leaves by rounding.
-            let sine = self.without_tones(tone.joint, self.thin_signal(tone.joint, sine));
-            let mut sine = self.without_tones(tone.joint, sine);
-            let norm = sine.iter().map(|x| x * x).sum::<f64>().sqrt();
-            if norm > IN_BAND * (sine.len() as f64).sqrt() {
-                sine.iter_mut().for_each(|x| *x /= norm);
-                self.tone_basis[tone.joint].push(sine);
-            }
+            let sine = self.thin_signal(tone.joint, sine);
+            self.add_to_basis(tone.joint, sine);
+        }
+    }
+
+    /// Adds a signal, at the rate of the regression, to the basis of what is removed at joint `j`.
+    fn add_to_basis(&mut self, j: usize, x: Vec<f64>) {
+        // The second projection takes what the first leaves by rounding.
+        let mut x = self.without_tones(j, self.without_tones(j, x));
+        let norm = x.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if norm > IN_BAND * (x.len() as f64).sqrt() {
+            x.iter_mut().for_each(|x| *x /= norm);
+            self.tone_basis[j].push(x);
         }
     }
 

@@ -93,14 +93,15 @@ impl<'a> Log<'a> {
             let along = self.along_run(robot, frame, run)?;
             let along =
                 if self.response == Response::Effort { along.while_moving() } else { along };
-            Ok(along.with_even_noise().with_tones(self.tones))
+            Ok(along.with_even_noise().with_tones(self.tones).without_swings())
         };
         self.prepared.runs.par_iter().map(evaluate).collect()
     }
 
     /// `robot` evaluated along every run, with its efforts also while its joints stand.
     pub fn along_all(&self, robot: &Robot, frame: &Frame) -> Result<Vec<Along<'a>>, LogError> {
-        let evaluate = |run| Ok(self.along_run(robot, frame, run)?.with_tones(self.tones));
+        let evaluate =
+            |run| Ok(self.along_run(robot, frame, run)?.with_tones(self.tones).without_swings());
         self.prepared.runs.par_iter().map(evaluate).collect()
     }
 

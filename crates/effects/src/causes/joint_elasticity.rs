@@ -5,6 +5,7 @@ use crate::abilities::BetweenEncoders;
 use crate::bounds::down_to_zero;
 use crate::column::{EffectColumn, at_joint};
 use crate::effect::Effect;
+use crate::motion::compliance::{Spring, rate};
 use crate::motion::frame::Frame;
 use crate::motion::run_motion::RunMotion;
 use crate::motion::scale::Scale;
@@ -15,11 +16,26 @@ use crate::quantity::{EffectQuantity, actuator_quantity};
 use crate::traits::{Imitable, Law, Linearity, Location, Traits, Weights};
 
 /// `theta - q = load / stiffness`: one weight a joint, the change of the compliance
-/// `1 / stiffness`.
+/// `1 / stiffness`. Where the damping of the spring is known, a second weight is the change of damping over stiffness (s),
+///
+/// ```text
+/// s + damping_s sd = compliance load,   s = theta - q
+/// ```
+///
+/// A rigid joint with a trial spring has the twist of that spring as its column: near the resonance of the link the twist
+/// is far from the load times the compliance. The extended drive has the trial spring, whose stiffness the resonance
+/// tells; the weight tells whether it is there.
 pub(crate) struct JointElasticity;
+
+/// Least and largest change of damping over stiffness in one step, over itself.
+const DAMPING_STEP: (f64, f64) = (-0.5, 1.0);
 
 fn compliance(drive: &Actuator) -> f64 {
     drive.elasticity.map_or(0.0, f64::recip)
+}
+
+fn damping_s(drive: &Actuator) -> Option<f64> {
+    Spring::of(drive)?.damping_s
 }
 
 /// Step of the compliance in the difference of two plays (rad/(N m) or m/N). The play is linear in the compliance
@@ -73,7 +89,7 @@ impl Effect for JointElasticity {
         drive.elasticity.map(|_| "elasticity_nm_per_rad")
     }
 
-    /// The stiffness: damping acts only at frequencies that the motion does not reach.
+    /// The stiffness. Damping tells near the resonance alone; the extended drive has it there.
     fn parameters(&self) -> &'static [Parameter] {
         let all = self.kind().entry().parameters;
         all.get(..1).unwrap_or(all)
@@ -84,17 +100,43 @@ impl Effect for JointElasticity {
     }
 
     fn columns(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
-        let twist = per_compliance(motion, j, motion.rigid_load(j), LoadAlong::at_motor);
-        vec![motion.twist_column(j, &twist)]
+        if let Some(column) = motion.trial_spring_column(j) {
+            return vec![column];
+        }
+        let mut twist = per_compliance(motion, j, motion.rigid_load(j), LoadAlong::at_motor);
+        if let Some(first) = twist.first_mut().filter(|_| motion.is_forward(j)) {
+            *first = motion.load_at_rest(j);
+        }
+        let damped = damping_s(&motion.drives[j]).map(|_| {
+            let twist: Vec<f64> =
+                motion.q[j].iter().zip(&motion.link[0][j]).map(|(theta, q)| theta - q).collect();
+            let slowed: Vec<f64> = rate(&twist, motion.period_s).iter().map(|sd| -sd).collect();
+            let begin = [0.0].into_iter().take(slowed.len());
+            begin.chain(slowed.iter().copied().skip(1)).collect::<Vec<f64>>()
+        });
+        let twists = [twist].into_iter().chain(damped);
+        twists.map(|twist| motion.twist_column(j, &twist)).collect()
     }
 
-    fn prior(&self, AtJoint(j): AtJoint, _: &Robot, scale: &Scale, priors: &Priors) -> Vec<f64> {
+    /// A twist under the effort, a damping known to its half.
+    fn prior(
+        &self,
+        AtJoint(j): AtJoint,
+        robot: &Robot,
+        scale: &Scale,
+        priors: &Priors,
+    ) -> Vec<f64> {
         let effort = scale.effort.get(j).copied().unwrap_or(0.0);
-        vec![if effort > 0.0 { priors.twist_sd / effort } else { 0.0 }]
+        let compliance = if effort > 0.0 { priors.twist_sd / effort } else { 0.0 };
+        let damping = damping_s(&robot.links()[j].actuator).map(|d| priors.shape_sd_share * d);
+        [compliance].into_iter().chain(damping).collect()
     }
 
     fn bounds(&self, AtJoint(j): AtJoint, robot: &Robot, _: &Priors) -> Vec<(f64, f64)> {
-        down_to_zero(compliance(&robot.links()[j].actuator))
+        let drive = &robot.links()[j].actuator;
+        let (least, most) = DAMPING_STEP;
+        let damping = damping_s(drive).map(|d| (least * d, most * d));
+        down_to_zero(compliance(drive)).into_iter().chain(damping).collect()
     }
 
     fn extend(
@@ -102,13 +144,21 @@ impl Effect for JointElasticity {
         AtJoint(j): AtJoint,
         robot: &mut Robot,
         weights: &[f64],
-        _: &Frame,
+        frame: &Frame,
         _: &Priors,
     ) {
-        let [change] = weights else { return };
+        let [change, slower @ ..] = weights else { return };
         let Some(link) = robot.link_mut(j) else { return };
-        let compliance = compliance(&link.actuator) + change;
-        link.actuator.elasticity = (compliance > 0.0).then(|| compliance.recip());
+        let drive = &mut link.actuator;
+        let trial = frame.trial_springs[j].filter(|_| drive.elasticity.is_none() && *change > 0.0);
+        if let Some(spring) = trial {
+            spring.set(drive);
+            return;
+        }
+        let (compliance, damping_s) = (compliance(drive) + change, damping_s(drive));
+        drive.elasticity = (compliance > 0.0).then(|| compliance.recip());
+        let damping_s = damping_s.map(|d| d + slower.first().unwrap_or(&0.0));
+        drive.elasticity_damping = drive.elasticity.zip(damping_s).map(|(k, d)| k * d);
     }
 
     /// A rigid transmission has an infinite stiffness.
@@ -131,6 +181,9 @@ impl BetweenEncoders for JointElasticity {
     fn twist(&self, AtJoint(j): AtJoint, motion: &RunMotion) -> Vec<EffectColumn> {
         let ratio = motion.drives[j].transmission_ratio;
         let twist = per_compliance(motion, j, &motion.load[j], LoadAlong::at_link);
-        vec![at_joint(j, twist.into_iter().map(|x| x / ratio))]
+        let sizes = 1 + usize::from(damping_s(&motion.drives[j]).is_some());
+        let none = vec![0.0; twist.len()];
+        let twists = [twist, none].into_iter().take(sizes);
+        twists.map(|twist| at_joint(j, twist.into_iter().map(|x| x / ratio))).collect()
     }
 }

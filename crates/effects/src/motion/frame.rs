@@ -1,4 +1,7 @@
 use logs::{JointNoise, Prepared, rest_speeds};
+use robot::Actuator;
+
+use crate::motion::compliance::Spring;
 
 /// Reference values of the joints that all runs of a diagnosis share.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,8 +18,31 @@ pub struct Frame {
     /// Trial gap of each joint (rad or m), about which the column of a drive without a gap is taken; 0 where none is set.
     /// [`ShapedRobot`](crate::ShapedRobot) has the best ones.
     pub trial_gaps: Vec<f64>,
+    /// Trial spring of each rigid joint, whose column is then the twist of that spring; `None` where none is set.
+    pub trial_springs: Vec<Option<TrialSpring>>,
     /// Trial time by which goals are later than described (s), about which its column is taken; 0 for none.
     pub trial_lateness_s: f64,
+}
+
+/// A damped spring between the motor and the link of a joint, near whose resonance a motion is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TrialSpring {
+    /// Torque per unit of twist (N·m/rad or N/m).
+    pub stiffness: f64,
+    /// Torque per unit of the speed of the twist (N·m·s/rad or N·s/m).
+    pub damping: f64,
+}
+
+impl TrialSpring {
+    pub(crate) fn spring(self) -> Spring {
+        let compliance = self.stiffness.recip();
+        Spring { compliance, damping_s: Some(self.damping * compliance) }
+    }
+
+    /// Gives a drive this spring.
+    pub(crate) fn set(self, drive: &mut Actuator) {
+        (drive.elasticity, drive.elasticity_damping) = (Some(self.stiffness), Some(self.damping));
+    }
 }
 
 impl Frame {
@@ -28,7 +54,16 @@ impl Frame {
             spans.map(|(low, high)| (0.5 * (low + high), 0.5 * (high - low))).unzip();
         let resolution = logs.noise.iter().map(|noise| resolution(noise, logs.cutoff_hz)).collect();
         let trial_gaps = vec![0.0; rest_speed.len()];
-        Self { rest_speed, centre, reach, resolution, trial_gaps, trial_lateness_s: 0.0 }
+        let trial_springs = vec![None; rest_speed.len()];
+        Self {
+            rest_speed,
+            centre,
+            reach,
+            resolution,
+            trial_gaps,
+            trial_springs,
+            trial_lateness_s: 0.0,
+        }
     }
 }
 

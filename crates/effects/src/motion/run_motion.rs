@@ -5,16 +5,18 @@ use robot::{Actuator, Robot, SensingSide};
 
 use crate::column::{ColumnPart, EffectColumn, at_joint};
 use crate::motion::cable_loop::Loop;
-use crate::motion::compliance::{Compliance, curvature, rate};
+use crate::motion::compliance::{Compliance, Spring, curvature, rate};
 use crate::motion::direction::{direction, stands};
 use crate::motion::drive::{bristles, motor_torque, warmth};
 use crate::motion::dry_friction::along_a_log;
 use crate::motion::effort_timing::{EffortTiming, shift};
 use crate::motion::encoders::{Encoders, JointMotions};
-use crate::motion::frame::Frame;
+use crate::motion::frame::{Frame, TrialSpring};
 use crate::motion::rigid_bodies::{LinkRegressor, link_regressor, loads, tilt};
 use crate::motion::slopes::Slopes;
-use crate::motion::transmission::{Deflection, Gap, LoadAlong, correct_reading, play};
+use crate::motion::transmission::{
+    Deflection, Gap, LoadAlong, correct_reading, loads_at_rest, play,
+};
 
 /// The motion of one run and the efforts that the nominal robot expects along it.
 ///
@@ -63,6 +65,8 @@ pub struct RunMotion {
     pub(crate) drives: Vec<Actuator>,
     /// Trial gap of each joint (rad or m); 0 where none is set.
     pub(crate) trial_gaps: Vec<f64>,
+    /// Trial spring of each rigid joint; `None` where none is set.
+    trial_springs: Vec<Option<TrialSpring>>,
     /// Trial time by which goals are later than described (s); 0 where none is set.
     trial_lateness_s: f64,
     /// Load of the links along the measured motion; `None` where motors and links move as one.
@@ -140,6 +144,7 @@ impl RunMotion {
             robot: robot.clone(),
             drives,
             trial_gaps: frame.trial_gaps.clone(),
+            trial_springs: frame.trial_springs.clone(),
             trial_lateness_s: frame.trial_lateness_s,
             rigid_load,
             compliances,
@@ -365,6 +370,69 @@ impl RunMotion {
         let mut column = self.displacement_column(j, [twist, &first, &second]);
         column.iter_mut().flat_map(|part| &mut part.values).for_each(|v| *v = -*v);
         column
+    }
+
+    /// Change of the efforts by the trial spring of joint `j`, per unit of its compliance; `None` where none is set.
+    pub(crate) fn trial_spring_column(&self, j: usize) -> Option<EffectColumn> {
+        let spring = self.trial_springs[j].filter(|_| self.drives[j].elasticity.is_none())?;
+        let mut robot = self.robot.clone();
+        spring.set(&mut robot.link_mut(j)?.actuator);
+        let motor = [&self.q, &self.qd, &self.qdd].map(Clone::clone);
+        let seen = |i: usize| (i != j).then(|| self.link.each_ref().map(|x| x[i].clone()));
+        let links = (0..self.q.len()).map(seen).collect();
+        let load = loads(&robot, &Deflection::new(&robot, motor, links, self.period_s).link);
+        let part = |(i, (with, without)): (usize, (&Vec<f64>, &Vec<f64>))| {
+            let changes = with.iter().zip(without).map(|(with, without)| with - without);
+            self.load_part(i, changes.map(|change| spring.stiffness * change))
+        };
+        Some(load.iter().zip(&self.load).enumerate().map(part).collect())
+    }
+
+    /// Change of the efforts by links that swing on their springs, or on trial springs, from where a run begins: no encoder
+    /// shows twist and speed of the twist there, and a swing of little damping lasts for seconds.
+    pub fn swings(&self) -> Vec<EffectColumn> {
+        let of_joint = |j: usize| {
+            let trial = self.trial_springs[j].filter(|_| self.drives[j].elasticity.is_none());
+            let spring = trial.map(TrialSpring::spring);
+            let compliance =
+                |spring| Compliance::new(spring, &self.slopes(j)[j], self.period_s).swings();
+            let own = self.compliances[j].as_ref();
+            own.and_then(Compliance::swings).or_else(|| spring.and_then(compliance))
+        };
+        let column = |(j, twist): (usize, Vec<f64>)| {
+            let (first, second) = (rate(&twist, self.period_s), curvature(&twist, self.period_s));
+            self.displacement_column(j, [&twist, &first, &second])
+        };
+        let all = (0..self.q.len()).filter_map(|j| Some((j, of_joint(j)?)));
+        all.flat_map(|(j, twists)| twists.map(|twist| (j, twist))).map(column).collect()
+    }
+
+    /// Column of a twist under the load of joint `j` by a trial spring of unknown damping, per unit of its `compliance`:
+    /// the effort of the joint itself.
+    pub fn trial_compliance_part(&self, j: usize, compliance: f64) -> ColumnPart {
+        let spring = Spring { compliance, damping_s: None };
+        let slopes = &self.slopes(j)[j];
+        let twist = Compliance::new(spring, slopes, self.period_s).twist_under(self.rigid_load(j));
+        let (first, second) = (rate(&twist, self.period_s), curvature(&twist, self.period_s));
+        let [dq, dqd, dqdd] = slopes;
+        let load = |t: usize| -(dq[t] * twist[t] + dqd[t] * first[t] + dqdd[t] * second[t]);
+        self.load_part(j, (0..twist.len()).map(load))
+    }
+
+    /// Derivative of the load of joint `j` by the acceleration of its link (kg m² or kg), in the mean.
+    pub fn mean_inertia(&self, j: usize) -> f64 {
+        let inertia = &self.slopes(j)[j][2];
+        inertia.iter().sum::<f64>() / inertia.len().max(1) as f64
+    }
+
+    /// Whether the twist of joint `j` is followed forward in time, as that of a spring of known damping.
+    pub(crate) fn is_forward(&self, j: usize) -> bool {
+        self.compliances[j].as_ref().is_some_and(Compliance::is_forward)
+    }
+
+    /// Load of joint `j` at rest where the run begins (N·m or N).
+    pub(crate) fn load_at_rest(&self, j: usize) -> f64 {
+        loads_at_rest(&self.robot, &self.link)[j].unwrap_or(0.0)
     }
 
     /// Change of the effort of every joint by a displacement `s` of the link of joint `j`, with rates `sd`, `sdd`.

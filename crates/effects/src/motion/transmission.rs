@@ -2,7 +2,7 @@ use std::cell::LazyCell;
 
 use robot::{Actuator, Robot, SensingSide};
 
-use crate::motion::compliance::{Compliance, curvature, rate};
+use crate::motion::compliance::{Compliance, Spring, curvature, rate};
 use crate::motion::encoders::{JointMotions, LinkMotion};
 use crate::motion::rigid_bodies::loads;
 use crate::motion::slopes::Slopes;
@@ -85,9 +85,8 @@ impl Deflection {
                 move_joint(&mut motor, i, &twist, period_s);
                 continue;
             }
-            compliances[i] = drive
-                .elasticity
-                .map(|stiffness| Compliance::new(stiffness.recip(), &slopes.by(i)[i], period_s));
+            let compliance = |spring| Compliance::new(spring, &slopes.by(i)[i], period_s);
+            compliances[i] = Spring::of(drive).map(compliance);
             of_motor.push((i, twist));
         }
         let link = links_behind(robot, link, (of_motor, &compliances), period_s);
@@ -114,6 +113,7 @@ fn links_behind(
         link
     };
     let mut twists = play.clone();
+    let at_rest = twists_at_begin(robot, &measured, compliances);
     if compliances.iter().all(Option::is_none) {
         return behind(&twists);
     }
@@ -121,15 +121,49 @@ fn links_behind(
         let load = loads(robot, &behind(&twists));
         for ((i, twist), (_, play)) in twists.iter_mut().zip(&play) {
             let drive = &robot.links()[*i].actuator;
-            let (Some(compliance), Some(stiffness)) = (&compliances[*i], drive.elasticity) else {
+            let (Some(compliance), Some(spring)) = (&compliances[*i], Spring::of(drive)) else {
                 continue;
             };
-            let parts = play.iter().zip(twist.iter()).zip(&load[*i]);
-            let missing: Vec<f64> = parts.map(|((x, s), load)| load / stiffness + x - s).collect();
+            let turns = rate(twist, period_s);
+            let parts = play.iter().zip(twist.iter().zip(turns)).zip(&load[*i]);
+            let missing = parts.map(|((x, (s, sd)), load)| {
+                spring.compliance * load - spring.damping_s.unwrap_or(0.0) * sd + x - s
+            });
+            let mut missing: Vec<f64> = missing.collect();
+            if let (Some(first), Some(rest)) = (missing.first_mut(), at_rest[*i]) {
+                *first = rest + play.first().unwrap_or(&0.0) - twist.first().unwrap_or(&0.0);
+            }
             twist.iter_mut().zip(compliance.twist_under(&missing)).for_each(|(s, more)| *s += more);
         }
     }
     behind(&twists)
+}
+
+/// Twists at the first sample of springs that are followed forward in time: links that rest twist them by their weight.
+fn twists_at_begin(
+    robot: &Robot,
+    measured: &JointMotions,
+    compliances: &[Option<Compliance>],
+) -> Vec<Option<f64>> {
+    if !compliances.iter().flatten().any(Compliance::is_forward) {
+        return vec![None; compliances.len()];
+    }
+    let loads = loads_at_rest(robot, measured);
+    let springs = robot.links().iter().map(|link| Spring::of(&link.actuator));
+    let twists = springs.zip(compliances).zip(loads).map(|((spring, compliance), load)| {
+        compliance.as_ref().filter(|of| of.is_forward())?;
+        Some(spring?.compliance * load?)
+    });
+    twists.collect()
+}
+
+/// Loads of joints that rest where a motion begins; `None` for a motion without samples.
+pub(crate) fn loads_at_rest(robot: &Robot, motion: &JointMotions) -> Vec<Option<f64>> {
+    let first = |x: &Vec<f64>| x.first().copied().into_iter().collect::<Vec<f64>>();
+    let position: Vec<Vec<f64>> = motion[0].iter().map(first).collect();
+    let still: Vec<Vec<f64>> = position.iter().map(|x| vec![0.0; x.len()]).collect();
+    let loads = loads(robot, &[position, still.clone(), still]);
+    loads.iter().map(|load| load.first().copied()).collect()
 }
 
 /// Moves joint `i` by `change`.

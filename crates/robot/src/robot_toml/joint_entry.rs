@@ -60,6 +60,9 @@ pub(crate) struct JointEntry {
     /// Stiffness of the transmission; a joint without it is rigid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub elasticity_nm_per_rad: Option<f64>,
+    /// Damping of that stiffness, which counts near the resonance of the link; it needs that stiffness.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub elasticity_damping_nm_s_per_rad: Option<f64>,
     /// Time from command to torque.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("default" = 0.0))]
@@ -272,7 +275,7 @@ impl JointEntry {
             }
         }
         self.spring(site, a)?;
-        self.bristles(site, a)?;
+        self.dampings(site, a)?;
         self.times(site, a)?;
         a.stribeck = self.stribeck(site)?.or(a.stribeck);
         a.friction_wave = self.wave(site)?.or(a.friction_wave);
@@ -335,15 +338,24 @@ impl JointEntry {
         Ok(())
     }
 
-    fn bristles(&self, site: &KeyPath, a: &mut Actuator) -> Result<(), Misfit> {
-        let key = "presliding_damping_nm_s_per_rad";
-        let Some(damping) = self.presliding_damping_nm_s_per_rad else { return Ok(()) };
-        if a.presliding.is_none() {
-            let found = "presliding_damping_nm_s_per_rad is there alone";
-            return incomplete(site, found, "presliding_rad as well");
+    fn dampings(&self, site: &KeyPath, a: &mut Actuator) -> Result<(), Misfit> {
+        let [bristles, spring] =
+            ["presliding_damping_nm_s_per_rad", "elasticity_damping_nm_s_per_rad"];
+        if let Some(damping) = self.presliding_damping_nm_s_per_rad {
+            if a.presliding.is_none() {
+                let found = "presliding_damping_nm_s_per_rad is there alone";
+                return incomplete(site, found, "presliding_rad as well");
+            }
+            in_range(site, bristles, damping, Range::NotNegative)?;
+            a.presliding_damping = Some(damping);
         }
-        in_range(site, key, damping, Range::NotNegative)?;
-        a.presliding_damping = Some(damping);
+        let Some(damping) = self.elasticity_damping_nm_s_per_rad else { return Ok(()) };
+        if a.elasticity.is_none() {
+            let found = "elasticity_damping_nm_s_per_rad is there alone";
+            return incomplete(site, found, "elasticity_nm_per_rad as well");
+        }
+        in_range(site, spring, damping, Range::Positive)?;
+        a.elasticity_damping = Some(damping);
         Ok(())
     }
 

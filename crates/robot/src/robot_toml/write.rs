@@ -134,6 +134,7 @@ fn joint_entry(new: &Link, old: &Link, names: &[&str], gain: Option<PdGain>) -> 
         torque_offset_nm: changed_number(a.torque_offset, b.torque_offset),
         backlash_rad: changed_number(a.backlash, b.backlash),
         elasticity_nm_per_rad: a.elasticity,
+        elasticity_damping_nm_s_per_rad: a.elasticity_damping,
         actuator_delay_ms: changed_number(a.delay_s, b.delay_s).map(milliseconds),
         stribeck_excess_nm: a.stribeck.map(|s| s.excess),
         stribeck_velocity_rad_per_s: a.stribeck.map(|s| s.velocity),

@@ -158,7 +158,7 @@ pub struct Coupling {
 /// With `theta` the motor position referred to the joint,
 ///
 /// ```text
-/// |theta - q| <= backlash / 2 + |load| / elasticity
+/// theta - q = s + x,   elasticity s + elasticity_damping sd = load,   |x| <= backlash / 2
 /// lag d(tau)/dt + tau = command(t - delay)
 /// ```
 ///
@@ -216,6 +216,8 @@ pub struct Actuator {
     pub backlash: f64,
     /// Stiffness of the transmission (N·m/rad or N/m); `None` for a rigid one.
     pub elasticity: Option<f64>,
+    /// Damping of that spring (N·m·s/rad or N·s/m), above 0; `None` where it is unknown.
+    pub elasticity_damping: Option<f64>,
     /// Time from command to torque (s).
     pub delay_s: f64,
     /// Time constant of the torque behind its command (s): 63 % of a step is then reached.
@@ -300,6 +302,7 @@ impl Default for Actuator {
             torque_offset: 0.0,
             backlash: 0.0,
             elasticity: None,
+            elasticity_damping: None,
             delay_s: 0.0,
             lag_s: 0.0,
             encoder_offset: 0.0,

@@ -174,7 +174,7 @@ fn finite_link(link: &Link) -> Result<(), RobotError> {
     let wave = a.friction_wave.map(|w| [w.share, w.periods, w.phase]);
     let ripple = a.ripple.map(|r| [r.amplitude, r.periods, r.phase]);
     let given = drive.iter().chain(&a.elasticity).chain(&a.presliding);
-    let given = given.chain(&a.presliding_damping);
+    let given = given.chain(&a.presliding_damping).chain(&a.elasticity_damping);
     let given = given.chain(stribeck.as_slice().as_flattened());
     let coupling =
         a.coupling.map(|c| [c.ratio, c.level[0], c.level[1], c.viscous[0], c.viscous[1]]);

@@ -1,7 +1,7 @@
 use robot::Actuator;
 
-/// Damping of a described transmission as a share of critical damping against the rotor: the
-/// description has no key for it. Cable drives and harmonic gears have 0.5 to 5 %.
+/// Damping of a described transmission whose damping is unknown, as a share of critical damping against the
+/// rotor. Cable drives and harmonic gears have 0.5 to 5 %.
 const DAMPING_RATIO: f64 = 0.02;
 
 /// The transmission between motor and link of a joint.
@@ -16,11 +16,15 @@ pub struct Transmission {
 }
 
 impl Transmission {
-    /// The transmission of a described actuator: its stiffness, its free play, and 2 % of critical
+    /// The transmission of a described actuator: its stiffness, its free play, and its damping, or 2 % of critical
     /// damping.
     pub fn of_actuator(actuator: &Actuator) -> Self {
         let inertia = actuator.rotor_inertia;
-        let damping = |stiffness| damping(DAMPING_RATIO, stiffness, inertia);
+        let damping = |stiffness| {
+            actuator
+                .elasticity_damping
+                .unwrap_or_else(|| damping(DAMPING_RATIO, stiffness, inertia))
+        };
         Self {
             stiffness: actuator.elasticity,
             damping: actuator.elasticity.map_or(0.0, damping),

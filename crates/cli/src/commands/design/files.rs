@@ -220,6 +220,7 @@ pub fn run_of(robot: &Robot, designed: &DesignedMotion, rate_hz: f64) -> Run {
         reach: vec![1.0; joints],
         resolution: vec![0.0; joints],
         trial_gaps: vec![0.0; joints],
+        trial_springs: vec![None; joints],
         trial_lateness_s: 0.0,
     };
     let along = Along::new(robot, &frame, [q.clone(), qd.clone(), qdd.clone()], rate_hz.recip());
