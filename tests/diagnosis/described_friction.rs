@@ -24,7 +24,10 @@ fn described_friction_that_is_not_there_hides_nothing() {
             (found.parameters[0].value, found.parameters[0].ci95)
         };
         let holds = |(value, [low, high]): (f64, [f64; 2]), truth: f64| {
-            assert!(low <= truth && truth <= high && high - low < truth, "{value} ({low} to {high})");
+            assert!(
+                low <= truth && truth <= high && high - low < truth,
+                "{value} ({low} to {high})"
+            );
         };
         holds(size("FR02 Coulomb friction at j7_palm_yaw"), 0.03);
         holds(size("FR01 viscous friction at j7_palm_yaw"), 0.005);

@@ -10,9 +10,10 @@ use crate::columns::linear_rest::LinearRest;
 use crate::signals::along::Along;
 use crate::signals::log::Log;
 
-/// The trial spring of every joint whose link seems to move near its resonance on a spring. `None` where no stiffness
-/// explains more than `least_gain` of what all linear effects leave. The stiffness is the one that explains most of what the
-/// everyday effects leave, more than `least_everyday_gain`: where there is no weight, another inertia of the link shifts it.
+/// The trial spring of the joint whose link seems most to move near its resonance on a spring: a link that swings shakes those
+/// that carry it, as if these had springs too. `None` at every joint where no stiffness explains more than `least_gain` of what
+/// all linear effects leave. The stiffness is the one that explains most of what the everyday effects leave, more than
+/// `least_everyday_gain`: where there is no weight, another inertia of the link shifts it.
 ///
 /// With `P` what linear effects leave of a signal, `r = P y` and `C` the change of the joint's effort by the spring,
 ///
@@ -33,25 +34,25 @@ pub(crate) fn trial_springs(
         let drive = &robot.links()[j].actuator;
         let is_rigid = drive.elasticity.is_none() && drive.backlash <= 0.0;
         let is_tried = is_rigid && drive.sensing != SensingSide::Link && log.includes(hypothesis);
-        rest.as_ref().filter(|_| is_tried).map(|rest| springs_in_reach(j, rest, log, runs))
+        let rest = rest.as_ref().filter(|_| is_tried)?;
+        springs_in_reach(j, rest, log, runs).map(|(gain, trials)| (gain, j, trials))
     };
-    let tried: Vec<Vec<Trial>> =
-        left.par_iter().enumerate().map(of_joint).map(Option::unwrap_or_default).collect();
-    if tried.iter().all(Vec::is_empty) {
-        return Ok(vec![None; tried.len()]);
-    }
+    let tried: Vec<Option<(f64, usize, Vec<Trial>)>> =
+        left.par_iter().enumerate().map(of_joint).collect();
+    let mut springs = vec![None; left.len()];
+    let strongest = tried.into_iter().flatten().max_by(|a, b| a.0.total_cmp(&b.0));
+    let Some((_, j, trials)) = strongest else { return Ok(springs) };
     let is_everyday = |kind| Hypothesis { kind, place: Place::Base }.is_everyday();
     let others = MODELLED.into_iter().filter(|kind| !is_everyday(*kind));
     let without: Vec<EffectKind> = others.chain(log.without.iter().copied()).collect();
     let design = Design::new(robot, &Log { without: &without, ..*log })?;
     let least = log.thresholds.springs.least_everyday_gain;
-    let best = |(j, trials): (usize, Vec<Trial>)| {
-        let rest = LinearRest::new(&design, j)?;
+    if let Some(rest) = LinearRest::new(&design, j) {
         let gains = trials.into_iter().map(|trial| (trial.gain(&rest), trial.spring));
         let best = gains.max_by(|a, b| a.0.total_cmp(&b.0));
-        best.filter(|(gain, _)| *gain > least).map(|(_, spring)| spring)
-    };
-    Ok(tried.into_iter().enumerate().map(best).collect())
+        springs[j] = best.filter(|(gain, _)| *gain > least).map(|(_, spring)| spring);
+    }
+    Ok(springs)
 }
 
 /// A spring, and the change of the effort of its joint over all runs.
@@ -69,13 +70,19 @@ impl Trial {
     }
 }
 
-/// The trials at joint `j`; none where no spring explains enough of what all linear effects leave, `rest`.
-fn springs_in_reach(j: usize, rest: &LinearRest, log: &Log, runs: &[Along]) -> Vec<Trial> {
+/// The trials at joint `j` and the largest gain of one; `None` where no spring explains enough of what all linear effects
+/// leave, `rest`.
+fn springs_in_reach(
+    j: usize,
+    rest: &LinearRest,
+    log: &Log,
+    runs: &[Along],
+) -> Option<(f64, Vec<Trial>)> {
     let samples: usize = runs.iter().map(|along| along.motion.samples()).sum();
     let whole = |along: &Along| along.motion.mean_inertia(j) * along.motion.samples() as f64;
     let inertia = runs.iter().map(whole).sum::<f64>() / samples.max(1) as f64;
     if inertia <= 0.0 {
-        return Vec::new();
+        return None;
     }
     let stiffness_at = |hz: f64| inertia * (std::f64::consts::TAU * hz).powi(2);
     let t = &log.thresholds.springs;
@@ -93,5 +100,6 @@ fn springs_in_reach(j: usize, rest: &LinearRest, log: &Log, runs: &[Along]) -> V
     };
     let all = std::iter::successors(Some(least), |k| Some(k * t.stiffness_ratio));
     let trials: Vec<Trial> = all.take_while(|k| *k <= most).map(trial).collect();
-    if trials.iter().any(|trial| trial.gain(rest) > t.least_gain) { trials } else { Vec::new() }
+    let gain = trials.iter().map(|trial| trial.gain(rest)).fold(f64::NEG_INFINITY, f64::max);
+    (gain > t.least_gain).then_some((gain, trials))
 }

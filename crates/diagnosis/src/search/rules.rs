@@ -205,7 +205,8 @@ impl Selection<'_> {
         let design = self.problem.design;
         let is_level = |g: &&usize| {
             let Hypothesis { kind, place } = design.groups[**g].hypothesis;
-            let changes = matches!(kind, EffectKind::CoulombFriction | EffectKind::AsymmetricFriction);
+            let changes =
+                matches!(kind, EffectKind::CoulombFriction | EffectKind::AsymmetricFriction);
             changes && place == Place::Joint(j)
         };
         let levels: Vec<usize> = model.model.iter().filter(is_level).copied().collect();

@@ -3,7 +3,8 @@
 pub struct SpringThresholds {
     /// Slowest resonance that is tried, in cut-offs (1): a slower link hardly follows the motion.
     pub slowest: f64,
-    /// Fastest resonance that is tried, in cut-offs (1): sixteen samples a period, which err by 1 per cent in the stiffness.
+    /// Fastest resonance that is tried, in cut-offs (1). The cut-off is some five times the band of the motion: below a third
+    /// of a resonance the slope by the compliance is at most an eighth off.
     pub fastest: f64,
     /// Ratio of a trial stiffness to the one before (1): the trial response, of a spring of unknown damping, is wider.
     pub stiffness_ratio: f64,
@@ -19,7 +20,7 @@ impl Default for SpringThresholds {
     fn default() -> Self {
         Self {
             slowest: 0.05,
-            fastest: 1.0,
+            fastest: 0.6,
             stiffness_ratio: 1.25,
             damping_ratio: 0.1,
             least_gain: 0.1,
