@@ -60,6 +60,8 @@ const NUMERICAL: &[(&str, &str, &str, &str)] = &[
     ("effects", "cable_spring", "WAY", "where the column of a robot without a loop is taken"),
     ("effects", "compliance", "LEAST", "keeps a pivot from zero"),
     ("effects", "compliance", "RESISTANCE", "regularisation of an inversion at the resonance"),
+    ("effects", "compliance", "LEAST_SWING", "stability of differences in time"),
+    ("effects", "joint_elasticity", "DAMPING_STEP", "limits of one step of a fit"),
     ("effects", "differential_coupling", "RATIOS", "first values of a search, refined afterwards"),
     (
         "effects",

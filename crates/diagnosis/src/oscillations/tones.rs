@@ -2,13 +2,14 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 
 use effects::Frame;
-use logs::{FourierTransform, LogError, LowPass, Prepared};
+use logs::{FourierTransform, LogError, Prepared};
 use nalgebra::Complex;
 use rayon::prelude::*;
 use robot::Robot;
 
 use crate::oscillations::lines::Oscillations;
 use crate::oscillations::moving_runs::MovingRuns;
+use crate::oscillations::run_parts::{low_pass, windows};
 use crate::oscillations::spectral_lines::{
     AROUND, Follows, SpectralLine, SpectralLines, surprisal,
 };
@@ -19,9 +20,6 @@ use crate::signals::log::Log;
 use crate::signals::rest::Rest;
 use crate::signals::tone::{Beat, Tone};
 use crate::thresholds::tones::ToneThresholds;
-
-/// Order of the low-pass of a band in which a tone is compared with the rest.
-const ORDER: usize = 4;
 
 /// Number of zeros that are appended to a run before its spectrum is taken, in lengths of the longest run.
 const PADDED: usize = 4;
@@ -221,25 +219,6 @@ fn is_no_motion(tone: &Tone, clock: &Joint, slowest_hz: f64) -> bool {
         !runs[*r].qd.iter().any(moves)
     };
     windows().all(is_most) && windows().filter(is_still).count() >= t.fewest_still
-}
-
-/// The part of a signal below a cut-off.
-fn low_pass(x: &[f64], time: &[f64], cutoff_hz: f64) -> Vec<f64> {
-    let span = time.last().zip(time.first()).map_or(0.0, |(last, first)| last - first);
-    let rate_hz = time.len().saturating_sub(1) as f64 / span;
-    let mut slow = x.to_vec();
-    // At a rate that is too low for the filter the signal has nothing above the cut-off.
-    if let Ok(filter) = LowPass::new(ORDER, cutoff_hz, rate_hz) {
-        filter.apply(&mut slow);
-    }
-    slow
-}
-
-/// Parts of a run of about `window_s`.
-fn windows(time: &[f64], window_s: f64) -> Vec<Range<usize>> {
-    let span = time.last().zip(time.first()).map_or(0.0, |(last, first)| last - first);
-    let count = ((span / window_s) as usize).max(1);
-    (0..count).map(|i| i * time.len() / count..(i + 1) * time.len() / count).collect()
 }
 
 impl<'a> Joint<'a> {

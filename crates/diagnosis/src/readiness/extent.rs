@@ -18,7 +18,7 @@ pub(crate) fn inadequate(
                 "the joint moves over {range:.4} {unit} in these logs, at least {least:.3} are needed"
             ));
         }
-        let run = prepared.runs.iter().find(|run| is_unrecorded(run, j, moved(link, t)))?;
+        let run = prepared.runs.iter().find(|run| is_unrecorded(run, j, moving_range(link, t)))?;
         Some(format!("its effort never changes in {}: it was not recorded there", run.name))
     };
     robot.links().iter().enumerate().map(reason).collect()
@@ -31,8 +31,11 @@ pub(crate) fn drop_runs_without_effort(
     prepared: &mut Prepared,
     t: &ReadinessThresholds,
 ) -> Vec<String> {
-    let joints: Vec<(&str, f64)> =
-        robot.links().iter().map(|link| (link.joint.name.as_str(), moved(link, t))).collect();
+    let joints: Vec<(&str, f64)> = robot
+        .links()
+        .iter()
+        .map(|link| (link.joint.name.as_str(), moving_range(link, t)))
+        .collect();
     let joints_without_effort = |run: &PreparedRun| -> Vec<&str> {
         let those =
             joints.iter().enumerate().filter(|(j, (_, least))| is_unrecorded(run, *j, *least));
@@ -71,23 +74,23 @@ fn is_unrecorded(run: &PreparedRun, j: usize, least: f64) -> bool {
 }
 
 /// Range of motion above which a joint counts as moved, whatever its encoder is (rad or m).
-fn moved(link: &robot::Link, t: &ReadinessThresholds) -> f64 {
+fn moving_range(link: &robot::Link, t: &ReadinessThresholds) -> f64 {
     t.unmoved_range * full_range(&link.joint)
 }
 
-/// Range of motion above which the logs show a joint (rad or m): that of [`moved`], or a smaller one that is many steps of
+/// Range of motion above which the logs show a joint (rad or m): that of [`moving_range`], or a smaller one that is many steps of
 /// its encoder and a part of what other joints move. A joint that is held is shaken by those that move: that of a WAM turns
 /// over .04 rad while its shoulder sweeps over 2.2.
 fn least_to_show(robot: &Robot, prepared: &Prepared, j: usize, t: &ReadinessThresholds) -> f64 {
     let link = &robot.links()[j];
-    let Some(noise) = prepared.noise.get(j) else { return moved(link, t) };
+    let Some(noise) = prepared.noise.get(j) else { return moving_range(link, t) };
     let (step, rms) = (noise.position.step, noise.position_rms(prepared.cutoff_hz));
     if step.is_none() && rms == 0.0 {
-        return moved(link, t);
+        return moving_range(link, t);
     }
     let steps = t.encoder_steps * step.unwrap_or(0.0).max(rms);
     let share = t.least_range.max(t.held_range * largest_share(prepared, robot));
-    moved(link, t).min(steps.max(share * full_range(&link.joint)))
+    moving_range(link, t).min(steps.max(share * full_range(&link.joint)))
 }
 
 /// Range of motion of joint `j` over all runs (rad or m).

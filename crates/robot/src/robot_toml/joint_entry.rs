@@ -339,14 +339,12 @@ impl JointEntry {
     }
 
     fn dampings(&self, site: &KeyPath, a: &mut Actuator) -> Result<(), Misfit> {
-        let [bristles, spring] =
-            ["presliding_damping_nm_s_per_rad", "elasticity_damping_nm_s_per_rad"];
         if let Some(damping) = self.presliding_damping_nm_s_per_rad {
             if a.presliding.is_none() {
                 let found = "presliding_damping_nm_s_per_rad is there alone";
                 return incomplete(site, found, "presliding_rad as well");
             }
-            in_range(site, bristles, damping, Range::NotNegative)?;
+            in_range(site, "presliding_damping_nm_s_per_rad", damping, Range::NotNegative)?;
             a.presliding_damping = Some(damping);
         }
         let Some(damping) = self.elasticity_damping_nm_s_per_rad else { return Ok(()) };
@@ -354,7 +352,7 @@ impl JointEntry {
             let found = "elasticity_damping_nm_s_per_rad is there alone";
             return incomplete(site, found, "elasticity_nm_per_rad as well");
         }
-        in_range(site, spring, damping, Range::Positive)?;
+        in_range(site, "elasticity_damping_nm_s_per_rad", damping, Range::Positive)?;
         a.elasticity_damping = Some(damping);
         Ok(())
     }
