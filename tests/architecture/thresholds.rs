@@ -45,7 +45,7 @@ const NUMERICAL: &[(&str, &str, &str, &str)] = &[
     ("diagnosis", "spectral_lines", "AROUND", "values of a median"),
     ("diagnosis", "spectral_lines", "BESIDE", "width of a line in the padded spectrum"),
     ("diagnosis", "tones", "NEAR", "grid on which the top of a line is found"),
-    ("diagnosis", "tones", "ORDER", "order of a low-pass"),
+    ("diagnosis", "run_parts", "ORDER", "order of a low-pass"),
     ("diagnosis", "tones", "PADDED", "resolution of a spectrum"),
     ("diagnosis", "torque_noise", "LOWEST", "first point of a figure"),
     ("diagnosis", "torque_noise", "PASSED", "value of an integral"),
