@@ -334,9 +334,8 @@ fn the_truth_of_another_set_is_refused() {
 
 #[test]
 fn drifts_are_medians_over_the_trials_that_have_one() {
-    let set = MadeUpSet::usual();
-    set.say(1, "{}");
-    set.say(2, "{}");
+    let set = MadeUpSet::new(vec![sheet(&[]), sheet(&[]), sheet(&[])]);
+    (1..=3).for_each(|trial| set.say(trial, "{}"));
     let [truth, drifts] = ["truth", "drifts"].map(|name| set.folder.path().join(name));
     let score = |text: &str| {
         fs::write(&drifts, text).unwrap();
@@ -345,6 +344,10 @@ fn drifts_are_medians_over_the_trials_that_have_one() {
     let both = r#"{"trials": {"trial_1": [0.01, 0.1, 0.5], "trial_2": [0.03, 0.3, 1.5], "other": [9, 9, 9]}}"#;
     let all = score(both).unwrap().rows[0].clone();
     [0.02, 0.2, 1.0].iter().zip(&all.replay).for_each(|(drift, found)| close(found.value, *drift));
+    // Of three trials the median is no mean.
+    let three = r#"{"trials": {"trial_1": [0.01, 0.1, 0.5], "trial_2": [0.03, 0.3, 1.5], "trial_3": [0.2, 2, 9]}}"#;
+    let all = score(three).unwrap().rows[0].clone();
+    [0.03, 0.3, 1.5].iter().zip(&all.replay).for_each(|(drift, found)| close(found.value, *drift));
     let one = score(r#"{"trials": {"trial_2": [0.03, 0.3, 1.5]}}"#).unwrap().rows[0].clone();
     close(one.replay[2].value, 1.5);
     assert_eq!(one.replay[2].of, 1);
