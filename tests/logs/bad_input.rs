@@ -209,10 +209,6 @@ fn two_columns_of_one_name() {
     let file = Scratch::new("run.csv", "time,j1.position,j1.position\n");
     let expected = "run.csv: two columns are called j1.position, names must be unique";
     assert_eq!(file.message(&two_joints()), expected);
-    // A name may hold what a terminal obeys.
-    let file = Scratch::new("run.csv", "time,\u{1b}[2J\u{1},\u{1b}[2J\u{1}\n");
-    let expected = "run.csv: two columns are called  [2J , names must be unique";
-    assert_eq!(file.message(&two_joints()), expected);
 }
 
 #[test]

@@ -82,6 +82,7 @@ fn counts_on(name: &str, next: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::common::error::FormatError;
 
     #[test]
     fn numbered_columns_are_told_by_their_ends() {
@@ -106,5 +107,8 @@ mod tests {
     #[test]
     fn a_name_of_a_file_keeps_the_message_on_one_line() {
         assert_eq!(suggestion(Some("\0ime\n")), "; did you mean  ime ?");
+        let twice =
+            FormatError::DuplicateColumn { path: "a.mat".into(), column: "\u{1b}[2J\u{1}".into() };
+        assert_eq!(twice.to_string(), "a.mat: two columns are called  [2J , names must be unique");
     }
 }
