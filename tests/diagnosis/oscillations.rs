@@ -59,7 +59,7 @@ fn a_ripple_that_hides_in_the_noise_of_each_run_stands_out_of_all() {
 
 /// A disturbance in the band of the motion, in runs of which the joint stands through the second half.
 #[test]
-fn a_slow_disturbance_is_told_by_the_windows_in_which_the_joint_moves() {
+fn a_slow_disturbance_is_told_by_the_part_in_which_the_joint_moves() {
     for seed in [3110, 3111] {
         let runs = World::nominal().runs(3, 12.0, &Noise::of_a_wam(), seed);
         let disturbed = |(r, run): (usize, Run)| {
