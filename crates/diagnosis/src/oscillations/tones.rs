@@ -39,8 +39,8 @@ pub(crate) struct ToneQuestion<'a> {
 }
 
 /// The oscillations in the residual efforts of a robot in a wide band, at the joints that moved: lines of the
-/// spectrum over time or position that stand out of all runs together and that lower the error by enough. The robot is `found` by a search; a tone must also be in the difference from the one as it is
-/// `described`.
+/// spectrum over time or position that stand out of all runs together and that lower the error by enough. The robot is
+/// `found` by a search; a tone must also be in the difference from the one as it is `described`.
 ///
 /// A line as slow as the motion counts under two conditions: it is most of the residual at all times, and at some
 /// times no joint moves much at its frequency.
